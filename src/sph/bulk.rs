@@ -1,4 +1,4 @@
-//! Fields of the fluids, wherever their interface is.
+//! Fields of the fluids that do not depend on the interface.
 
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
@@ -12,27 +12,27 @@ use crate::sph::view::View;
 /// Volumes and densities [Huber2013, Eq. 17], viscosities and wall distances.
 #[derive(Debug, Clone, Default)]
 pub struct BulkFields {
-    /// Volume V_a in m²; on walls the lattice's V_0.
+    /// Volume V_a in m²; on walls V_0 of the lattice.
     pub volume: Field<f64>,
     /// V_a on fluid, 0 on walls.
     pub fluid_volume: Field<f64>,
-    /// ρ_a in kg/m³; on walls that of the fluid nearby. Between floor and lid that of inertia.
+    /// ρ_a in kg/m³; on walls that of the fluid nearby. Between floor and lid multiplied by the profile factor, as it enters inertia.
     pub density: Field<f64>,
-    /// Dynamic viscosity in Pa s, 0 on walls. Between floor and lid that of the stress in the plane.
+    /// Dynamic viscosity in Pa s, 0 on walls. Between floor and lid multiplied by the profile factor, as it enters the in-plane stress.
     pub viscosity: Field<f64>,
-    /// Distance to the wall in m: of fluid and buffer particles with a wall in reach, else infinite.
+    /// Distance to the wall in m of fluid and buffer particles with a wall in reach, else infinite.
     pub wall_distance: Vec<f64>,
     /// Wall normal into the fluid, of the same particles; zero far away.
     pub wall_normal: Vec<Vec2>,
 }
 
 impl BulkFields {
-    /// Finds them.
+    /// The fields at the present positions.
     pub(crate) fn of(flow: &View<()>) -> Self {
         let (Configuration { method, wall, .. }, neighborhood) = (flow.config, flow.neighborhood);
         let (Neighborhood { pairs, images }, particles) = (neighborhood, &flow.state.particles);
         let (n, fluids, moving) = (particles.len(), particles.fluids, particles.moving());
-        // Buffer particles see no neighbors beyond the far end: they have the volume of the lattice.
+        // Buffer particles lack neighbors beyond the far end: they have the volume of the lattice.
         let mut volume = density::volume(pairs, fluids);
         volume.resize(n, method.volume);
         let fluid_volume = images.field(volume[..moving].to_vec());

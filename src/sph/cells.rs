@@ -1,4 +1,4 @@
-//! Counting-sort cell list: finds the points within the kernel's support, through periodic sides too.
+//! Counting-sort cell list: finds the points within the support of the kernel, also across periodic sides.
 
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ pub(super) struct Cells {
     sorted: Vec<Vec2>,
 }
 
-/// A run of consecutive entries that are to be seen shifted by `shift`.
+/// A run of consecutive entries whose points are shifted by `shift`.
 #[derive(Debug, Clone, Copy)]
 struct Run {
     first: usize,
@@ -42,7 +42,7 @@ impl Cells {
             if domain.periodic[i] {
                 (low[i], high[i]) = (domain.bounds.min[i], domain.bounds.max[i]);
             }
-            // A runaway particle must not ask for endless memory: coarser cells are slower, never wrong.
+            // A runaway particle must not exhaust the memory: coarser cells are slower, never wrong.
             let most = 4.0 * (points.len() as f64).sqrt() + 8.0;
             counts[i] = ((high[i] - low[i]) / support).floor().clamp(1.0, most) as usize;
             size[i] = (high[i] - low[i]) / counts[i] as f64;
@@ -96,7 +96,7 @@ impl Cells {
 
     /// Calls `visit(index, x − x_index)` for each point in the cells around `x`, always in the same order.
     ///
-    /// A periodic direction must be at least three supports long, or a point would be met twice.
+    /// A periodic direction must be at least three supports long, or a point would be visited twice.
     pub(crate) fn visit_near(&self, x: Vec2, mut visit: impl FnMut(u32, Vec2)) {
         let [column, row] = self.column_and_row(x);
         for (row, shift_y) in self.three(1, row) {
@@ -109,10 +109,10 @@ impl Cells {
         }
     }
 
-    /// Appends to `found` the points nearer to `x` than the root of `reach2` (m²), without the index `but`, always in the same order.
+    /// Appends to `found` the points nearer to `x` than the root of `reach2` (m²), except the index `but`, always in the same order.
     ///
-    /// Every candidate is written and the end moved on by whether it stays: a branch that is taken for every third candidate at random
-    /// would cost more than all the arithmetic.
+    /// Branch-free: every candidate is written, and the end advances if it is kept. About one in three is, in no predictable order:
+    /// mispredicted branches would cost more than all the arithmetic.
     pub(crate) fn collect_within(&self, x: Vec2, reach2: f64, but: u32, found: &mut Vec<u32>) {
         let [column, row] = self.column_and_row(x);
         for (row, shift_y) in self.three(1, row) {

@@ -1,6 +1,6 @@
-//! Connected parts of a graph.
+//! Connected components of a graph.
 
-/// The part of each node, numbered from 0 in the order of their first nodes. `neighbors(a)` lists the nodes joined to a.
+/// The component of each node, numbered from 0 in the order of their first nodes. `neighbors(a)` lists the nodes connected to a.
 pub(crate) fn components<I: Iterator<Item = usize>>(count: usize, neighbors: impl Fn(usize) -> I) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut part = vec![NONE; count];

@@ -1,5 +1,5 @@
-//! Flexible preconditioned conjugate gradients (Notay 2000) with one dot product more than the plain form, since the
-//! K-cycle of the pressure is not a fixed linear map. Unknowns are numbers (pressure) or vectors of the plane (viscosity).
+//! Flexible preconditioned conjugate gradients (Notay 2000), with one dot product more than the standard form, since the
+//! K-cycle of the pressure is not a fixed linear map. Unknowns are scalars (pressure) or vectors in the plane (viscosity).
 
 use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
@@ -8,15 +8,15 @@ use rayon::prelude::*;
 use crate::math::Vec2;
 use crate::sph::parallel::{GRAIN, total};
 
-/// Below this relative residual the recursion's r drifts away from b − M x by rounding: it is computed anew before it is
-/// believed, and after so many iterations.
-const BELIEVED: f64 = 1e-9;
-const ANEW_AFTER: usize = 5;
+/// Below this relative residual the recursive r drifts away from b − M x by rounding: it is recomputed before it counts as
+/// converged, and after so many iterations.
+const RELIABLE: f64 = 1e-9;
+const RECOMPUTED_AFTER: usize = 5;
 
-/// A residual computed anew that is not below this share of the one before is all that rounding allows.
+/// A recomputed residual that is not below this fraction of the one before has reached the limit set by rounding.
 const PROGRESS: f64 = 0.5;
 
-/// One unknown: a number, or a vector of the plane.
+/// One unknown: a scalar, or a vector in the plane.
 pub trait Unknown:
     Copy
     + Send
@@ -28,7 +28,7 @@ pub trait Unknown:
     + AddAssign
     + SubAssign
 {
-    /// Nothing.
+    /// Zero.
     const ZERO: Self;
 
     /// Number of components.
@@ -40,7 +40,7 @@ pub trait Unknown:
     /// The unknown with these components.
     fn from_components(component: impl Fn(usize) -> f64) -> Self;
 
-    /// The product of both; of vectors the inner one.
+    /// The product; of vectors the inner product.
     fn times(&self, other: &Self) -> f64;
 }
 
@@ -90,25 +90,25 @@ pub trait SymmetricMatrix<T> {
 /// How a solve ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
-    /// Iterations done.
+    /// Number of iterations.
     pub iterations: usize,
     /// |b − M x|/|b|.
     pub residual: f64,
 }
 
-/// When the iteration stops.
+/// Stopping criterion of the iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Largest |b − M p|/|b|.
     pub residual: f64,
-    /// Most iterations.
+    /// Maximum number of iterations.
     pub iterations: usize,
 }
 
-/// Solves M x = b from the given x until |b − M x| is within the tolerance.
+/// Solves M x = b, starting from the given x, until |b − M x| is within the tolerance.
 ///
-/// `b` must be in the range of M: of a pressure, sum zero over each part without a fixed value. `precondition(r, z)` sets z ≈ M⁻¹ r.
-/// Where rounding allows no smaller residual the iteration stops early.
+/// `b` must be in the range of M: for the pressure, zero sum over each component without a fixed value. `precondition(r, z)` sets z ≈ M⁻¹ r.
+/// The iteration stops early where rounding allows no smaller residual.
 pub fn conjugate_gradients<T: Unknown>(
     matrix: &impl SymmetricMatrix<T>,
     b: &[T],
@@ -129,13 +129,13 @@ pub fn conjugate_gradients<T: Unknown>(
     let (mut age, mut last_fresh, mut best) = (0, f64::INFINITY, Vec::new());
     loop {
         let mut residual = dot(&r, &r).sqrt() / size;
-        let is_due = residual <= tolerance || age >= ANEW_AFTER;
-        if is_due && age > 0 && residual < BELIEVED && tolerance < BELIEVED {
+        let is_due = residual <= tolerance || age >= RECOMPUTED_AFTER;
+        if is_due && age > 0 && residual < RELIABLE && tolerance < RELIABLE {
             matrix.residual(b, x, &mut r);
             residual = dot(&r, &r).sqrt() / size;
             age = 0;
             if residual > PROGRESS * last_fresh {
-                // On rounding alone the iteration can lead away again.
+                // At the level of rounding the residual can grow again.
                 if residual > last_fresh {
                     x.copy_from_slice(&best);
                     residual = last_fresh;
@@ -163,7 +163,7 @@ pub fn conjugate_gradients<T: Unknown>(
     }
 }
 
-/// Changes each of `to` with its partner in `by`, in parallel.
+/// Updates each entry of `to` with the entry of `by` at the same index, in parallel.
 fn with<T: Unknown>(to: &mut [T], by: &[T], change: impl Fn(&mut T, &T) + Sync) {
     to.par_iter_mut().zip(by).with_min_len(GRAIN).for_each(|(to, by)| change(to, by));
 }

@@ -1,8 +1,8 @@
-//! The box of the simulation: periodic directions, mirrors, the separation of two points, and where its walls are.
+//! The simulation box: periodic directions, mirror sides, the separation of two points, and the wall query.
 
 use crate::math::{Bounds, Vec2};
 
-/// The signed distance in m (above 0 in the pore) and the wall normal at a point.
+/// The signed distance to the wall in m (positive in the pore) and the wall normal at a point.
 pub(crate) type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
 
 /// A mirror side.
@@ -12,7 +12,7 @@ pub struct Mirror {
     pub axis: usize,
     /// Coordinate of the side in m.
     pub at: f64,
-    /// What the image does to the velocity.
+    /// Velocity of the images.
     pub image: ImageVelocity,
 }
 
@@ -42,12 +42,12 @@ impl Mirror {
     }
 }
 
-/// The box with what stands at its sides.
+/// The box with the conditions at its sides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     /// The box in m.
     pub bounds: Bounds,
-    /// Directions in which the box repeats.
+    /// Whether the box is periodic along x and y.
     pub periodic: [bool; 2],
     /// Mirror sides.
     pub mirrors: Vec<Mirror>,
@@ -69,13 +69,13 @@ impl Domain {
         }
     }
 
-    /// x_a − x_b in m, by the shortest way through periodic sides.
+    /// x_a − x_b in m by the minimum-image convention.
     #[inline]
     pub fn separation(&self, x_a: Vec2, x_b: Vec2) -> Vec2 {
         let mut r = x_a - x_b;
         for i in 0..2 {
             let turns = r[i] * self.inverse_period[i];
-            // Most pairs are not across a side, and rounding is a call of the mathematical library.
+            // Most pairs do not cross a side, and rounding is a library call.
             if turns.abs() > 0.5 {
                 r[i] -= self.period[i] * turns.round();
             }
@@ -83,12 +83,12 @@ impl Domain {
         r
     }
 
-    /// The point's copy inside the box along periodic directions.
+    /// The periodic copy of `x` inside the box.
     pub fn wrapped(&self, x: Vec2) -> Vec2 {
         let mut y = x;
         for i in 0..2 {
             y[i] -= self.period[i] * ((x[i] - self.bounds.min[i]) * self.inverse_period[i]).floor();
-            // Rounding can land exactly on the upper side, which is the lower one.
+            // Rounding can give exactly the upper side, which is identified with the lower one.
             if self.periodic[i] && y[i] >= self.bounds.max[i] {
                 y[i] = self.bounds.min[i];
             }
@@ -96,7 +96,7 @@ impl Domain {
         y
     }
 
-    /// The periods as options, for functions that take one per direction.
+    /// The period in m along each direction, `None` where it is not periodic.
     pub(crate) fn periods(&self) -> [Option<f64>; 2] {
         [0, 1].map(|i| self.periodic[i].then_some(self.period[i]))
     }

@@ -1,6 +1,6 @@
-//! A flow by its parts: what is given, what a step goes on from, what follows from that, and what solves for the pressure.
+//! A flow: its configuration, its state, the fields derived from these, and the pressure solver.
 //!
-//! [`Flow::step`](crate::sph::projection) takes it from one time to the next.
+//! [`Flow::step`](crate::sph::projection) advances it by one time step.
 
 use std::time::Instant;
 
@@ -20,7 +20,7 @@ use crate::sph::view::View;
 use crate::sph::walls::WallFields;
 use crate::sph::wetting::lines::TrackedLine;
 
-/// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
+/// The particles are sorted by cell every so many steps, so that neighbors are close in memory.
 const REORDER_EVERY: u64 = 20;
 
 /// Names of the parts that `Work::seconds` counts.
@@ -28,17 +28,17 @@ pub const PARTS: [&str; 4] = ["neighbors", "forces", "pressure", "move"];
 
 /// A flow at one time.
 pub struct Flow {
-    /// What is given. It changes with the time of the case alone: body forces that take turns, pressures that rise.
+    /// Configuration; it changes with time only as the case prescribes.
     pub config: Configuration,
-    /// What a step goes on from: what restart saves.
+    /// State from which a step starts, as saved for restart.
     pub state: FlowState,
-    /// Pairs and images at the present positions; they follow from the state.
+    /// Pairs and images at the present positions, derived from the state.
     pub neighborhood: Neighborhood,
-    /// Volumes, densities, normals and forces at the present positions; they follow from the state.
+    /// Volumes, densities, normals and forces at the present positions, derived from the state.
     pub fields: Fields,
-    /// The contact lines at the present positions, which the next step takes into the state.
+    /// The contact lines at the present positions, which the next step stores in the state.
     pub lines: Vec<TrackedLine>,
-    /// Matrix and memory of the pressure solve. No step depends on what the one before left in it.
+    /// Matrix and workspace of the pressure solve. No step depends on what the previous one left in it.
     pub pressure: PressureSolve,
     /// Counts, for reports only.
     pub work: Work,
@@ -47,7 +47,7 @@ pub struct Flow {
 /// Counts of the solver's work.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Work {
-    /// Steps done by this process.
+    /// Steps taken by this process.
     pub steps: u64,
     /// Iterations of the last pressure solve.
     pub last_iterations: usize,
@@ -57,7 +57,7 @@ pub struct Work {
     pub residual: f64,
     /// Iterations of all viscous solves.
     pub viscous_iterations: u64,
-    /// Steps that were taken again, since a particle would have gone too far.
+    /// Steps that were repeated because a particle would have moved too far.
     pub repeats: u64,
     /// Particles set back from a wall.
     pub set_back: u64,
@@ -66,7 +66,7 @@ pub struct Work {
 }
 
 impl Flow {
-    /// The flow at time zero. `wall_depth` in m as `fill` returns it.
+    /// The flow at time zero. `wall_depth` in m as returned by `fill`.
     pub(crate) fn new(config: Configuration, particles: Particles, wall_depth: Vec<f64>) -> Self {
         let mut state = FlowState::new(particles, wall_depth, config.open.through.len());
         order_walls(&mut state, &config);
@@ -89,14 +89,14 @@ impl Flow {
 
     /// The state as bytes.
     pub fn save(&self) -> Vec<u8> {
-        // Plain numbers into memory: postcard cannot fail here, and an empty state is refused by `load`.
+        // Serializing numbers to memory cannot fail, and `load` rejects an empty state.
         postcard::to_stdvec(&self.state).unwrap_or_default()
     }
 
-    /// Takes up a saved state, with all that follows from it.
+    /// Restores a saved state and recomputes all fields derived from it.
     ///
     /// # Errors
-    /// [`StateError`] where the bytes are no state of a flow with as many particles.
+    /// [`StateError`] if the bytes are not the state of a flow with the same number of particles.
     pub fn load(&mut self, bytes: &[u8]) -> Result<(), StateError> {
         let mut state: FlowState = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
         let (saved, own) = (&state.particles, &self.state.particles);
@@ -106,7 +106,7 @@ impl Flow {
             let (found, expected) = (saved.len(), own.len());
             return Err(StateError(format!("it has {found} particles, the case has {expected}")));
         }
-        // A side that the saved run did not have begins anew.
+        // A side that the saved run did not have starts from its initial values.
         state.given_flows.resize(self.state.given_flows.len(), GivenFlow::default());
         self.state = state;
         self.fields.walls = WallFields::of(&self.config, &self.state.particles);
@@ -114,7 +114,7 @@ impl Flow {
         Ok(())
     }
 
-    /// All that follows from the state: neighbors, volumes, normals, forces of interface and lines.
+    /// Computes all that is derived from the state: neighbors, volumes, normals, forces of interface and contact lines.
     pub fn prepare(&mut self) {
         let start = Instant::now();
         let Self { config, state, neighborhood, fields, lines, .. } = self;
@@ -130,13 +130,13 @@ impl Flow {
         self.work.seconds[1] += after.elapsed().as_secs_f64();
     }
 
-    /// The flow to read.
+    /// Read access to the flow.
     pub fn view(&self) -> View<'_, Fields> {
         let Self { config, state, neighborhood, fields, .. } = self;
         View { config, state, neighborhood, fields }
     }
 
-    /// The flow to read, with what solves for the pressure and what counts it.
+    /// Read access to the flow, with the pressure solver and the work counts.
     pub(crate) fn solving(&mut self) -> (View<'_, Fields>, &mut PressureSolve, &mut Work) {
         let Self { config, state, neighborhood, fields, pressure, work, .. } = self;
         (View { config, state, neighborhood, fields }, pressure, work)
@@ -147,21 +147,21 @@ impl Flow {
         PARTS.iter().zip(self.work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
     }
 
-    /// Bytes held per particle by pairs, matrix, hierarchy and fields.
+    /// Memory in bytes of pairs, matrix, hierarchy and fields.
     pub fn bytes(&self) -> usize {
-        // Sixteen numbers of fields and particles, and ten of work space in step and solve, of 8 bytes or a pair of them.
+        // Per particle 16 quantities of fields and particles and 10 of workspace in step and solve, scalars or vectors of 8 bytes a component.
         let fields = self.state.particles.len() * (16 + 10) * 8 * 3 / 2;
         self.neighborhood.pairs.bytes() + self.pressure.bytes() + fields
     }
 }
 
-/// Puts the fluid particles in the order of their cells.
+/// Sorts the fluid particles by cell.
 fn order_fluid(particles: &mut Particles, config: &Configuration) {
     let order = order_of_cells(&particles.position[..particles.fluids], config);
     particles.reorder(&order.into_iter().chain(particles.fluids..particles.len()).collect::<Vec<usize>>());
 }
 
-/// Puts the wall particles in the order of their cells.
+/// Sorts the wall particles by cell.
 fn order_walls(state: &mut FlowState, config: &Configuration) {
     let moving = state.particles.moving();
     let order = order_of_cells(&state.particles.position[moving..], config);

@@ -1,18 +1,18 @@
-//! A frozen interface: the pore as a whole and then each phase alone, one after the other in one run.
+//! A frozen interface: flow through the whole pore and then through each phase alone, one after the other in one run.
 //!
-//! The other phase is part of the solid: no fluid passes the interface, and there is no slip on it. So the three flows have the same places of
-//! particles at their starts, and differ in what counts as fluid. Each begins at rest and from these places, whatever the one before did to its
-//! particles: the flow of a stage follows from the case and its own steps alone.
+//! The other phase is part of the solid: no fluid crosses the interface, and there is no slip on it. So the three flows have the same initial
+//! particle positions and differ in which particles are fluid. Each starts at rest from these positions, independently of the stage before: the
+//! flow of a stage is determined by the case and its own steps alone.
 
 use crate::sph::flow::Flow;
 
 /// Number of flows: of the whole pore, of the wetting and of the non-wetting phase, in this order.
 pub(crate) const FLOWS: usize = 3;
 
-/// Makes a flow at rest and at time zero.
+/// Constructs a flow at rest and at time zero.
 pub(crate) type FlowAtRest = Box<dyn Fn() -> Flow + Send + Sync>;
 
-/// The flows beside an interface that is frozen.
+/// The flows with a frozen interface.
 pub(crate) struct FrozenInterface {
     flows: [FlowAtRest; FLOWS],
 }
@@ -28,7 +28,7 @@ impl FrozenInterface {
         self.flows[0]()
     }
 
-    /// The flow of a stage at its start, which `before` has come to.
+    /// The flow of a stage at its start, with the time, step count and work of `before`, the end of the previous stage.
     pub(crate) fn flow(&self, stage: usize, before: &Flow) -> Flow {
         let mut flow = self.flows[stage.min(FLOWS - 1)]();
         (flow.state.time, flow.state.steps) = (before.state.time, before.state.steps);

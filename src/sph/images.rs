@@ -5,11 +5,11 @@ use std::ops::Deref;
 use crate::math::Vec2;
 use crate::sph::domain::{Domain, Mirror};
 
-/// Values of all particles and, behind them, of their images. Only [`Images`] makes it, so that none lacks those of the images.
+/// Values of all particles followed by those of their images. Only [`Images`] constructs it, so that the images are never missing.
 #[derive(Debug, Clone, Default)]
 pub struct Field<T>(Vec<T>);
 
-/// The images of one step. They are numbered after the particles: image i has index `first + i` in every field.
+/// The images at one step, numbered after the particles: image i has index `first + i` in every field.
 #[derive(Debug, Clone, Default)]
 pub struct Images {
     first: usize,
@@ -42,7 +42,7 @@ impl Images {
         images
     }
 
-    /// The particle that index `b` is or is the image of.
+    /// The particle with index `b`, or the source of the image with that index.
     #[inline]
     pub(crate) fn source(&self, b: usize) -> usize {
         if b < self.first { b } else { self.source[b - self.first] as usize }
@@ -64,18 +64,17 @@ impl Images {
         self.mirrors.iter().enumerate().filter(move |(k, _)| via >> k & 1 == 1).map(|(_, mirror)| mirror)
     }
 
-    /// Whether there are none.
+    /// Whether there are no images.
     pub(crate) fn is_empty(&self) -> bool {
         self.source.is_empty()
     }
 
-    /// The field of these values of the particles where the reflection leaves it alone: p' = p [Huber2013, Eq. 34]. Particles behind those that
-    /// have a value have zero.
+    /// The field of a scalar, unchanged by reflection: p' = p [Huber2013, Eq. 34]. Particles beyond the end of `values` have zero.
     pub(crate) fn field<T: Copy + Default>(&self, values: Vec<T>) -> Field<T> {
         self.field_by(values, |_, value| value)
     }
 
-    /// The field of a polar vector such as a normal.
+    /// The field of a polar vector, such as a normal.
     pub(crate) fn reflected_field(&self, values: Vec<Vec2>) -> Field<Vec2> {
         self.field_by(values, Mirror::reflect)
     }

@@ -9,14 +9,14 @@ use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
 use crate::wetting::Wetting;
 
-/// Above this ratio of densities Eq. (15) fails.
+/// Density ratio above which Eq. (15) fails.
 const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 
-/// Above this ratio the light particles of the unweighted continuum force are too fast.
+/// Density ratio above which the unweighted continuum force makes the light particles too fast.
 const LARGEST_WEIGHTED_RATIO: f64 = 20.0;
 
-/// The density-error correction has its full rate where the fastest particle goes this far, over dx, in its time.
-const FULL_CORRECTION_WAY: f64 = 0.005;
+/// The density-error correction has its full rate if the fastest particle moves this far, over dx, in the time of the correction.
+const FULL_CORRECTION_MOVE: f64 = 0.005;
 
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +29,7 @@ pub(crate) enum PressureGradient {
     Difference,
 }
 
-/// All that does not change during a run.
+/// Constants of a run.
 #[derive(Debug, Clone)]
 pub struct Method {
     /// Smoothing kernel.
@@ -52,29 +52,29 @@ pub struct Method {
     pub patches: Vec<Wetting>,
     /// Body force per mass in m/s².
     pub gravity: Vec2,
-    /// How walls hold the fluid next to them.
+    /// No-slip or slip condition on walls.
     pub no_slip: NoSlip,
-    /// Floor and lid; none in the plane.
+    /// Floor and lid; `None` in the plane.
     pub plates: Option<Plates>,
-    /// Forms, strengths and tolerances.
+    /// Discretization options and tolerances.
     pub numerics: Numerics,
     /// Pressure solve.
     pub tolerance: Tolerance,
 }
 
-/// What floor and lid do to a flow that is averaged over its depth b (Gondret and Rabaud 1997).
+/// Effect of floor and lid on a flow averaged over its depth b (Gondret and Rabaud 1997).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plates {
-    /// Factor α of the profile over the depth in inertia and in the viscous stress in the plane.
+    /// Factor α of the velocity profile over the depth, on inertia and on the in-plane viscous stress.
     pub profile: f64,
-    /// 12/b² in 1/m²: the friction is that times viscosity and velocity.
+    /// 12/b² in 1/m²: the friction per volume is this times viscosity and velocity.
     pub friction: f64,
-    /// What they add to the curvature of the interface.
+    /// Depth, for the curvature of the interface across it.
     pub depth: Depth,
 }
 
 impl Method {
-    /// The factor on inertia and on the viscous stress in the plane, 1 without floor and lid.
+    /// The factor α on inertia and on the in-plane viscous stress, 1 without floor and lid.
     pub(crate) fn profile(&self) -> f64 {
         self.plates.map_or(1.0, |plates| plates.profile)
     }
@@ -102,8 +102,8 @@ impl Method {
 
     /// The form of the pressure gradient.
     ///
-    /// The paper's with its surface force at small density ratios; the differences where a jump enters them, without
-    /// tension, and at large ratios, which the others do not survive.
+    /// With the continuum surface force of the paper, its form at small density ratios; differences with the pressure jump, without
+    /// tension, and at large density ratios, where the other forms fail.
     pub(crate) fn pressure_gradient(&self) -> PressureGradient {
         let ratio = self.density_ratio();
         let has_jump = matches!(self.surface_force, SurfaceForce::PressureJump { .. });
@@ -116,22 +116,22 @@ impl Method {
         }
     }
 
-    /// What the continuum forces are multiplied with at a particle of density `rho` (kg/m³): 1 as in the paper, ρ/ρ̄ at large ratios.
+    /// Weight of the continuum forces at a particle of density `rho` (kg/m³): 1 as in the paper, ρ/ρ̄ at large ratios.
     ///
-    /// With ρ/ρ̄ light particles are not thrown about, but at a concave interface the heavy fluid is then pulled towards
-    /// the light one like a heavy layer on a light one, and they mix: four discs at ratio 10 shed particles.
+    /// With ρ/ρ̄ light particles are not accelerated excessively, but a concave interface then becomes unstable as in Rayleigh-Taylor
+    /// flow, the heavy fluid being pulled towards the light one, and they mix: four discs at ratio 10 shed particles.
     pub(crate) fn force_weight(&self, rho: f64) -> f64 {
         if self.pressure_gradient() == PressureGradient::Difference { rho / self.mean_density() } else { 1.0 }
     }
 
-    /// The rate in 1/s at which the pressure takes back the density error: γ/τ min(1, v τ/(.005 dx)) with the time τ of the correction
-    /// ([`Method::density_correction_time`]). `fastest` is the largest velocity in m/s relative to the mean of all.
+    /// The rate in 1/s at which the pressure corrects the density error: γ/τ min(1, v τ/(.005 dx)) with the time τ of the correction
+    /// ([`Method::density_correction_time`]). `fastest` is the largest speed in m/s relative to the mean velocity of all.
     ///
-    /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
-    /// And they come in time, not in steps: a light gas, whose viscosity asks for short steps, must not be pushed in every one as hard.
+    /// Density errors arise from motion: in a fluid nearly at rest the correction itself would move the particles. They grow with time,
+    /// not with the number of steps: a light gas, whose viscosity requires short steps, must not be corrected as strongly in each of them.
     pub fn density_correction_rate(&self, fastest: f64) -> f64 {
         let tau = self.density_correction_time(fastest);
-        self.numerics.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
+        self.numerics.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_MOVE * self.spacing)).min(1.0)
     }
 
     /// The background pressure p_0 in Pa for a fluid whose largest speed is `speed` (m/s).

@@ -1,7 +1,7 @@
 //! Incompressible SPH for two fluids with partial wetting, after Huber et al. 2013.
 //!
-//! [`flow::Flow`] is the whole, by its parts: `config`, `state`, `neighborhood`, `fields`. `projection` decides the order of a step, `terms`
-//! holds the equations.
+//! [`flow::Flow`] consists of `config`, `state`, `neighborhood` and `fields`. `projection` defines the order of operations in a step, `terms`
+//! has the discretized equations.
 
 pub(crate) mod boundary;
 pub(crate) mod bulk;

@@ -1,6 +1,6 @@
-//! What lies around each particle at its present place: its neighbors, and the images of particles behind mirror sides.
+//! Neighborhood of each particle: its neighbors, and the images of particles behind mirror sides.
 //!
-//! Found anew whenever particles have moved.
+//! Recomputed whenever particles have moved.
 
 use crate::math::Vec2;
 use crate::sph::cells::Cells;
@@ -19,7 +19,7 @@ pub struct Neighborhood {
 }
 
 impl Neighborhood {
-    /// Finds both for particles at `position` (m).
+    /// Recomputes pairs and images for particles at `position` (m).
     pub(crate) fn find_anew(&mut self, position: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
         let mut points = position.to_vec();
         self.images = Images::append(&mut points, domain, kernel.support());

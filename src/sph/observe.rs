@@ -1,4 +1,4 @@
-//! What can be seen of a flow at one time: interface, contact lines, phases, pressures. Computed per record, not per step.
+//! Observation of a flow at one time: interface, contact lines, phases, pressures. Computed per record, not per step.
 
 use std::sync::OnceLock;
 
@@ -18,10 +18,10 @@ use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
 use crate::sph::unresolved::{ThinParts, small_pieces};
 
-/// Grid nodes beyond a wall side, so that the contour reaches the wall before it is cut off there.
+/// Grid nodes beyond a wall side, so that the contour extends to the wall, where it is clipped.
 const MARGIN: usize = 2;
 
-/// What is seen at one time.
+/// Interface, contact lines and phases at one time.
 #[derive(Debug, Clone)]
 pub struct Observation {
     /// The c = 0.5 contour in the pore, wetting phase on its left.
@@ -30,25 +30,25 @@ pub struct Observation {
     pub contact_lines: Vec<ContactLine>,
     /// Areas of the phases.
     pub areas: PhaseAreas,
-    /// Mean pressure of the non-wetting less that of the wetting phase.
+    /// Mean pressure of the non-wetting phase minus that of the wetting phase.
     pub capillary_pressure: CapillaryPressure,
-    /// Length of wall under the wetting phase in m.
+    /// Length of wall in contact with the wetting phase in m.
     pub wetted_length: f64,
-    /// Connected parts of the wetting phase, the largest first.
+    /// Ganglia (connected parts) of the wetting phase, the largest first.
     pub wetting_blobs: Vec<Blob>,
-    /// Connected parts of either phase below the resolution.
+    /// Number of ganglia of either phase below the resolution.
     pub small_pieces: usize,
-    /// Where a phase is thin, once someone has looked: most records need not know.
+    /// Where a phase is thin, computed on first use: most records do not need it.
     thin: OnceLock<ThinParts>,
 }
 
 impl Observation {
-    /// The contact lines with an angle: those of pockets of a few particles at the wall have none.
+    /// The contact lines with a measured angle: those of pockets of a few particles at the wall have none.
     pub(crate) fn lines_with_angle(&self) -> impl Iterator<Item = &ContactLine> {
         self.contact_lines.iter().filter(|line| line.angle_deg.is_finite())
     }
 
-    /// Looks at the flow; `wall` samples as `interface::lengths::wall_samples` makes them.
+    /// Observes the flow; `wall` samples as from `interface::lengths::wall_samples`.
     pub fn of(flow: &Flow, wall: &[WallSample]) -> Self {
         let fluids = flow.state.particles.fluids;
         // Interpolation near open sides needs their buffers; areas do not.
@@ -83,7 +83,7 @@ impl Observation {
         }
     }
 
-    /// Where a phase is thinner than about three particles; `flow` is the flow that is seen.
+    /// Where a phase is thinner than about three particles; `flow` is the observed flow.
     pub(crate) fn thin(&self, flow: &Flow) -> &ThinParts {
         self.thin.get_or_init(|| ThinParts::of(flow))
     }
@@ -99,7 +99,7 @@ impl Observation {
     }
 }
 
-/// The pressures in Pa of the fluid particles, each less the weight of its phase below or above the mean height of the interface.
+/// Pressures in Pa of the fluid particles, each without the hydrostatic pressure of its phase relative to the mean position of the interface.
 fn pressures_at_interface(flow: &Flow, interface: &[Polyline]) -> Vec<f64> {
     let (p, m) = (&flow.state.particles, &flow.config.method);
     let vertices: Vec<Vec2> = interface.iter().flat_map(|line| &line.points).copied().collect();
@@ -112,12 +112,12 @@ fn pressures_at_interface(flow: &Flow, interface: &[Polyline]) -> Vec<f64> {
     pressures.iter().enumerate().map(|(a, pressure)| pressure - weight(a)).collect()
 }
 
-/// Color of the particles of fluid and buffers: 1 in the wetting phase, else 0.
+/// Color of fluid and buffer particles: 1 in the wetting phase, else 0.
 pub(crate) fn sharp_color(flow: &Flow) -> Vec<f64> {
     flow.state.particles.phase[..flow.state.particles.moving()].iter().map(|p: &Phase| p.color()).collect()
 }
 
-/// The particles of fluid and buffers as samples for interpolation.
+/// Fluid and buffer particles as samples for interpolation.
 pub(crate) fn fluid_samples(flow: &Flow) -> Samples<'_> {
     let moving = flow.state.particles.moving();
     Samples {
@@ -149,8 +149,8 @@ pub(crate) fn nodes(flow: &Flow, spacing: f64) -> Lattice {
     lattice
 }
 
-/// The interface, and the smoothed color on the walls. The color is interpolated to the nodes near the interface only, so that the work there
-/// grows with its length and not with the area.
+/// The interface, and the smoothed color on the walls. The color is interpolated only to nodes near the interface, so that the work scales
+/// with its length and not with the area.
 fn interface_and_walls(
     flow: &Flow,
     color: &[f64],
@@ -161,8 +161,8 @@ fn interface_and_walls(
     let (samples, lattice) = (fluid_samples(flow), nodes(flow, flow.config.method.spacing));
     let near = if two_phases { nodes_near_level(&lattice, &samples, color, 0.5) } else { Vec::new() };
     let on_nodes = near.iter().map(|&node| lattice.position(node % lattice.counts[0], node / lattice.counts[0]));
-    let places: Vec<Vec2> = on_nodes.chain(walls.iter().map(|sample| sample.point)).collect();
-    let mut found = Stencils::new(&samples, &places).scalar(color);
+    let points: Vec<Vec2> = on_nodes.chain(walls.iter().map(|sample| sample.point)).collect();
+    let mut found = Stencils::new(&samples, &points).scalar(color);
     let on_walls = found.split_off(near.len());
     if !two_phases {
         return (vec![], on_walls);

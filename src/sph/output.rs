@@ -1,4 +1,4 @@
-//! The flow as output sees it: particles, grid and interface with the names of the output contract.
+//! The flow as written to output: particles, grid and interface with the documented field names.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -14,10 +14,10 @@ use crate::sph::flow::Flow;
 use crate::sph::observe::{Observation, fluid_samples, nodes};
 use crate::sph::unresolved::ThinParts;
 
-/// Reach of the circle fit for the curvature along the interface, over h.
+/// Range of the circle fit for the curvature along the interface, over h.
 const CURVATURE_REACH: f64 = 2.5;
 
-/// Nodes of the grid that are interpolated to at once.
+/// Number of grid nodes per batch of the interpolation.
 const NODES_AT_ONCE: usize = 1 << 15;
 
 fn scalar(name: &'static str, unit: &'static str, values: Vec<f64>) -> Field<'static> {
@@ -46,7 +46,7 @@ pub(crate) fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64
     }
 }
 
-/// Takes the points of `range` out: the buffers of open sides are no part of the flow.
+/// Removes the points of `range`: the buffers of open sides are not part of the flow.
 fn without(cloud: &mut Cloud<'static>, range: Range<usize>) {
     cloud.points.to_mut().drain(range.clone());
     for field in &mut cloud.fields {
@@ -58,7 +58,7 @@ fn without(cloud: &mut Cloud<'static>, range: Range<usize>) {
     }
 }
 
-/// Distance and normal of the nearest wall; without any wall the diagonal of the box, so that files hold finite numbers.
+/// Distance and normal of the nearest wall; the distance is at most the diagonal of the box, so that files contain finite numbers.
 fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
     let (distance, normal) = (flow.config.wall)(x);
     (distance.min(flow.config.domain.bounds.size().norm()), normal)
@@ -108,21 +108,21 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
         lattice.origin[i] = flow.config.domain.bounds.min[i];
     }
     lattice.periodic = [false; 2];
-    let places = lattice.nodes();
+    let points = lattice.nodes();
     let interpolated =
         |field: &&Field| !matches!(field.name, "wall-distance" | "wall-normal" | "id" | "phase" | "below-resolution");
     let given: Vec<&Field> = particles.fields.iter().filter(interpolated).collect();
     let empty = |field: &&Field| match field.values {
-        Values::Vector(_) => vector(field.name, field.unit, Vec::with_capacity(places.len())),
-        _ => scalar(field.name, field.unit, Vec::with_capacity(places.len())),
+        Values::Vector(_) => vector(field.name, field.unit, Vec::with_capacity(points.len())),
+        _ => scalar(field.name, field.unit, Vec::with_capacity(points.len())),
     };
     let mut fields: Vec<Field> = given.iter().map(empty).collect();
     let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
     let samples = fluid_samples(flow);
     let cells = samples.cells();
     // The weights of all nodes at once would take more memory than the flow.
-    for places in places.chunks(NODES_AT_ONCE) {
-        let stencils = Stencils::in_cells(&samples, &cells, places);
+    for batch in points.chunks(NODES_AT_ONCE) {
+        let stencils = Stencils::in_cells(&samples, &cells, batch);
         for (field, given) in fields.iter_mut().zip(&given) {
             match (&mut field.values, &given.values) {
                 (Values::Scalar(to), Values::Scalar(of)) => {
@@ -135,7 +135,7 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
             }
         }
     }
-    let (distance, normal) = places.par_iter().map(|&x| wall(flow, x)).unzip();
+    let (distance, normal) = points.par_iter().map(|&x| wall(flow, x)).unzip();
     fields.push(scalar("wall-distance", "m", distance));
     fields.push(vector("wall-normal", "", normal));
     lattice.grid(fields)

@@ -1,10 +1,10 @@
-//! Packs the fluid of a pore before time zero: particles move from crowded to empty places until all have the same room.
+//! Packs the fluid of a pore before time zero: particles move from dense to sparse regions until all have the same volume.
 //!
-//! Beside walls and interfaces that no lattice fits, a lattice has gaps and crowds. Two displacements take turns. One goes down the gradient of the
-//! concentration (Lind et al. 2012) and orders neighbors; walls hold still, and straight walls on the lattice have no gradient and
-//! leave it as it is. The other is the gradient of a potential whose Laplacian is the density error, as the density-error
-//! correction of the pressure equation: it evens out what is too much in one part of the pore and too little in another, which
-//! the first, a diffusion, would take long for. What is far from such walls and interfaces is a lattice already and holds still.
+//! Next to walls and interfaces that are not aligned with it, a lattice is too dense or too sparse. Two displacements alternate. One is down the
+//! gradient of the concentration (Lind et al. 2012) and orders neighbors; wall particles are fixed, and straight walls on the lattice
+//! have no gradient and leave it unchanged. The other is the gradient of a potential whose Laplacian is the density error, as in the
+//! density-error correction of the pressure equation: it removes density differences between distant parts of the pore, for which
+//! the first, a diffusion, would need many rounds. Far from such walls and interfaces particles remain on the lattice.
 
 mod band;
 
@@ -24,40 +24,40 @@ use crate::sph::terms::{density, pressure_gradient};
 /// Coefficient of the first displacement in units of h²; an explicit diffusion of the concentration is stable up to about a half.
 const DIFFUSION: f64 = 0.2;
 
-/// A particle moves by at most this share of the spacing at a time.
+/// A particle moves by at most this fraction of the spacing per round.
 const LARGEST_MOVE: f64 = 0.1;
 
-/// No particle comes nearer to a wall, a side or an interface on the lattice than this share of the spacing.
+/// Minimum distance of particles from a wall, a side or an interface aligned with the lattice, over the spacing.
 const CLOSEST_TO_WALL: f64 = 0.25;
 
-/// No particle comes nearer to an interface that has layers than this share of the spacing: these stand at half a spacing.
+/// Minimum distance of particles from an interface with layers, over the spacing: the layers are at half a spacing.
 const CLOSEST_TO_LAYERED: f64 = 0.75;
 
 /// Rounds in which neighbors are ordered.
 const ROUNDS: usize = 200;
 
-/// Every so many rounds the density is evened.
+/// The density is equalized every so many rounds.
 const EVENED_EVERY: usize = 10;
 
-/// Rounds at the end in which the density is evened and nothing else.
+/// Final rounds in which the density is equalized and nothing else.
 const LAST_ROUNDS: usize = 10;
 
-/// Share of the density error that is taken away at a time.
+/// Fraction of the density error that is removed at a time.
 const SHARE: f64 = 0.5;
 
-/// Particles farther than this from all that is no lattice hold still, in spacings: they are at rest there, and what a wall has too much
-/// or too little spreads over no more.
+/// Particles farther than this from all disturbances of the lattice are fixed, in spacings: they would not move, and the excess or deficit
+/// at a wall spreads no farther.
 const BAND: f64 = 24.0;
 
-/// Where the first displacement is longer than this share of the spacing there is no lattice.
+/// The lattice is disturbed where the first displacement is longer than this fraction of the spacing.
 const DISTURBED: f64 = 1e-6;
 
-/// The potential need not be exact: the next round takes what is left.
+/// The potential need not be exact: the next round removes the remaining error.
 const TOLERANCE: Tolerance = Tolerance { residual: 1e-3, iterations: 100 };
 
-/// What does not move while a pore is packed.
+/// Input of the packing of a pore.
 pub(crate) struct Packing<'a> {
-    /// Particles that hold still, in m: walls, layers beside the interface, and what stands beyond open sides.
+    /// Positions of fixed particles in m: walls, layers beside the interface, and buffers beyond open sides.
     pub(crate) fixed: &'a [Vec2],
     /// Box and sides.
     pub(crate) domain: &'a Domain,
@@ -65,39 +65,39 @@ pub(crate) struct Packing<'a> {
     pub(crate) kernel: &'a WendlandC2,
     /// Spacing dx in m.
     pub(crate) spacing: f64,
-    /// V_0 in m², the room of a particle.
+    /// V_0 in m², the volume of a particle.
     pub(crate) volume: f64,
     /// The pore.
     pub(crate) pore: &'a Geometry,
     /// The interface between two phases that has layers beside it.
     pub(crate) interface: Option<&'a UnfittedSurface<'a>>,
-    /// Sides of the box that no particle crosses, open sides and mirrors: axis, and place along it in m.
+    /// Sides of the box that no particle crosses, open sides and mirrors: axis, and coordinate along it in m.
     pub(crate) sides: &'a [(usize, f64)],
 }
 
-/// The particles of a round with all that they see.
+/// The particles of a round with all their neighbors.
 struct Round {
-    /// Fluid, what holds still, and the images of both, in m.
+    /// Fluid, fixed particles, and the images of both, in m.
     points: Vec<Vec2>,
-    /// Points that are no images.
+    /// Number of points that are not images.
     count: usize,
     images: Images,
     cells: Cells,
 }
 
-/// What becomes of a particle in a round.
+/// Displacement of a particle in a round.
 #[derive(Debug, Clone, Copy)]
 struct Move {
-    /// Displacement in m, as far as nothing is in its way.
+    /// Displacement in m, before it is limited by walls, interface and sides.
     by: Vec2,
-    /// Whether a particle that holds still is within the support.
+    /// Whether a fixed particle is within the support.
     sees_fixed: bool,
 }
 
 impl Packing<'_> {
-    /// Moves the particles `fluid` (m) to their places; `done` is told the share of the rounds that are done.
+    /// Packs the particles at `fluid` (m); reports the completed fraction of the rounds to `done`.
     ///
-    /// Those farther than 24 spacings from all that is no lattice stay where they are.
+    /// Those farther than 24 spacings from all disturbances of the lattice remain where they are.
     pub(crate) fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
         let moves = self.order(&self.round(fluid, self.fixed), fluid.len());
         let disturbed =
@@ -109,13 +109,13 @@ impl Packing<'_> {
         }
         let mut packed: Vec<Vec2> = near.iter().map(|&a| fluid[a]).collect();
         let far = fluid.iter().filter(|x| !band.holds(**x)).copied().collect::<Vec<_>>();
-        let seen = band.grown(self.kernel.support());
-        let fixed: Vec<Vec2> = self.fixed.iter().chain(&far).filter(|x| seen.holds(**x)).copied().collect();
+        let in_reach = band.grown(self.kernel.support());
+        let fixed: Vec<Vec2> = self.fixed.iter().chain(&far).filter(|x| in_reach.holds(**x)).copied().collect();
         self.pack_all(&mut packed, &fixed, done);
         near.iter().zip(packed).for_each(|(&a, x)| fluid[a] = x);
     }
 
-    /// Moves all of the particles `fluid`, while those at `fixed` hold still; all in m.
+    /// Packs all particles at `fluid`, with those at `fixed` held fixed; all in m.
     fn pack_all(&self, fluid: &mut [Vec2], fixed: &[Vec2], done: &mut dyn FnMut(f64)) {
         let mut solve = PressureSolve::default();
         for round in 0..ROUNDS + LAST_ROUNDS {
@@ -140,7 +140,7 @@ impl Packing<'_> {
         Round { points, count, images, cells }
     }
 
-    /// −D ∇C_a, ∇C_a = Σ_b V_0 ∇_a W_ab, of the first `fluids` particles. No pair is kept: most rounds need nothing else of them.
+    /// −D ∇C_a, ∇C_a = Σ_b V_0 ∇_a W_ab, of the first `fluids` particles. No pairs are stored: most rounds use them only once.
     fn order(&self, around: &Round, fluids: usize) -> Vec<Move> {
         let diffusion = DIFFUSION * self.kernel.h * self.kernel.h * self.volume;
         let reach2 = self.kernel.support() * self.kernel.support();
@@ -181,7 +181,6 @@ impl Packing<'_> {
             spacing: self.spacing,
         };
         let mut potential = vec![0.0; n];
-        // What the solve leaves over, the next round takes.
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
         solve.solve(&unknowns, &volume[..n], &mut [system]);
         let down = pressure_gradient::down(pairs, &volume, &ones, &images.field(potential), fluids);
@@ -208,7 +207,7 @@ impl Packing<'_> {
         });
     }
 
-    /// The way back of a particle that came from `old` to `x` (m), too near to the interface or across it.
+    /// The displacement back of a particle that moved from `old` to `x` (m), too close to the interface or across it.
     fn back_from(&self, interface: &UnfittedSurface, old: Vec2, x: Vec2) -> Vec2 {
         let Some(near) = interface.near(x, self.spacing) else { return Vec2::zeros() };
         let side = interface.near(old, self.spacing).unwrap_or(near).distance.signum();

@@ -1,4 +1,4 @@
-//! All pairs within the support, with W, ∇W and the slope of the Laplacians, found once per step and used by every sum of it.
+//! All pairs within the support, with W, ∇W and the weight of the Laplacians, computed once per step and used by all its sums.
 
 use std::iter::Sum;
 use std::ops::Range;
@@ -24,27 +24,27 @@ pub struct Pair {
     pub w: f64,
     /// ∇_a W_ab in 1/m³.
     pub grad_w: Vec2,
-    /// r_ab·∇_a W_ab/(|r_ab|² + ζ²) in 1/m⁴, never above 0: what the Laplacians of Eqs. (16) and (30) weigh differences with.
+    /// r_ab·∇_a W_ab/(|r_ab|² + ζ²) in 1/m⁴, never above 0: the weight of differences in the Laplacians of Eqs. (16) and (30).
     pub slope: f64,
 }
 
-/// The neighbors of each particle (itself left out), in rows.
+/// The neighbors of each particle (excluding itself), in compressed rows.
 ///
-/// Weights are kept in single precision and summed in double: half the memory that every sum reads, for a relative error of 6e-8 in each
-/// weight beside the errors of a percent of the sums themselves. W_ab = W_ba and ∇_a W_ab = −∇_b W_ba hold to the last bit all the same.
+/// Weights are stored in single precision and summed in double: half the memory traffic of every sum, for a relative error of 6e-8 in each
+/// weight, while the sums themselves have errors of a percent. W_ab = W_ba and ∇_a W_ab = −∇_b W_ba still hold to the last bit.
 #[derive(Debug, Clone, Default)]
 pub struct Pairs {
-    // The pressure matrix has the same pattern, and shares it.
+    // The sparsity pattern, shared with the pressure matrix.
     start: Arc<Vec<usize>>,
     b: Arc<Vec<u32>>,
     w: Vec<f32>,
     grad_w: Vec<[f32; 2]>,
     slope: Vec<f32>,
-    /// W(0) in 1/m²: the share of a particle in its own sum.
+    /// W(0) in 1/m²: the contribution of a particle to its own sum.
     pub w_self: f64,
 }
 
-/// The neighbors of the particles of one task: how many each has, and all of them, row after row.
+/// The neighbors of the particles of one task: their number per particle, and all of them, row by row.
 type Rows = (Vec<u32>, Vec<u32>);
 
 impl Pairs {
@@ -55,7 +55,7 @@ impl Pairs {
         pairs
     }
 
-    /// [`Pairs::find`] in the memory of the pairs before, with the `cells` of all `points` at hand.
+    /// [`Pairs::find`] that reuses the memory of the previous pairs, with given `cells` of all `points`.
     pub(in crate::sph) fn find_anew(
         &mut self,
         cells: &Cells,
@@ -83,7 +83,7 @@ impl Pairs {
         self.take_rows(&chunks, points, domain, kernel);
     }
 
-    /// Lays the rows of chunks of [`GRAIN`] particles end to end and evaluates the kernel on them.
+    /// Concatenates the rows of chunks of [`GRAIN`] particles and evaluates the kernel on them.
     fn take_rows(&mut self, chunks: &[Rows], points: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
         let mut start = reclaimed(&mut self.start);
         start.clear();
@@ -124,7 +124,7 @@ impl Pairs {
         (self.start, self.b) = (Arc::new(start), Arc::new(b));
     }
 
-    /// Number of particles that have a row.
+    /// Number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.start.len() - 1
     }
@@ -134,18 +134,18 @@ impl Pairs {
         self.b.len()
     }
 
-    /// Where the row of `a` lies in [`Pairs::neighbors`].
+    /// The range of the row of `a` in [`Pairs::neighbors`].
     #[inline]
     pub(crate) fn row(&self, a: usize) -> Range<usize> {
         self.start[a]..self.start[a + 1]
     }
 
-    /// The row starts, one more than there are rows.
+    /// The row starts, one more than rows.
     pub(crate) fn starts(&self) -> &Arc<Vec<usize>> {
         &self.start
     }
 
-    /// The neighbors, row after row.
+    /// The neighbors, row by row.
     pub(crate) fn neighbors(&self) -> &Arc<Vec<u32>> {
         &self.b
     }
@@ -170,18 +170,18 @@ impl Pairs {
         values(count, |a| self.of(a).map(|ab| term(a, &ab)).sum())
     }
 
-    /// Bytes held.
+    /// Memory in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.start.len() * 8 + self.b.len() * (4 + 4 + 8 + 4)
     }
 }
 
-/// The memory of a list that nobody shares any more.
+/// The memory of a list that is no longer shared.
 fn reclaimed<T>(shared: &mut Arc<Vec<T>>) -> Vec<T> {
     Arc::get_mut(shared).map(std::mem::take).unwrap_or_default()
 }
 
-/// Cuts `values`, one per pair, into the parts of `GRAIN` rows each, with the rows that they belong to: one task each.
+/// Splits `values`, one per pair, into parts of `GRAIN` rows each, one per task, with the rows of each part.
 pub(crate) fn split_rows<'a, T>(
     starts: &'a [usize],
     values: &'a mut [T],
@@ -196,10 +196,9 @@ pub(crate) fn split_rows<'a, T>(
     })
 }
 
-/// What tests compare with.
 #[cfg(test)]
 impl Pairs {
-    /// Every pair tried: the oracle of [`Pairs::find`], in the order of the indices.
+    /// Brute-force reference for [`Pairs::find`], in the order of the indices.
     pub(crate) fn brute_force(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
         let row = |a: usize| -> Vec<u32> {
             let near = |&b: &usize| b != a && domain.separation(points[a], points[b]).norm() < kernel.support();

@@ -1,7 +1,6 @@
-//! The particles as a structure of arrays: fluid particles first, the buffers of open sides after them, then wall particles, and
-//! images last.
+//! The particles as a structure of arrays: fluid particles first, then the buffers of open sides, then wall particles, and images last.
 //!
-//! Images stand behind mirror sides; they are made anew in each step and copy their source.
+//! Images behind mirror sides are recreated in each step and copy their source.
 
 use std::ops::Range;
 
@@ -10,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::Vec2;
 use crate::sph::parallel::largest;
 
-/// What a particle is made of.
+/// Phase of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Phase {
     /// The phase through which contact angles are measured, color 1.
@@ -46,7 +45,7 @@ pub struct Particles {
     pub open: usize,
     /// Number of wall particles.
     pub walls: usize,
-    /// Name of the particle for its whole life.
+    /// Identifier of the particle, constant in time.
     pub id: Vec<u32>,
     /// Phase.
     pub phase: Vec<Phase>,
@@ -54,9 +53,9 @@ pub struct Particles {
     pub position: Vec<Vec2>,
     /// Velocity in m/s; on walls that of the wall.
     pub velocity: Vec<Vec2>,
-    /// Pressure in Pa; also the first guess of the next solve.
+    /// Pressure in Pa; also the initial guess of the next solve.
     pub pressure: Vec<f64>,
-    /// Which part of the pore space: parts that share no neighbors have a pressure constant each.
+    /// Connected component of the pore space: each has its own pressure constant.
     pub part: Vec<u32>,
 }
 
@@ -66,7 +65,7 @@ impl Particles {
         self.position.len()
     }
 
-    /// Number of particles that move: fluid and buffers. Walls begin there.
+    /// Number of moving particles: fluid and buffers. This is the index of the first wall particle.
     pub fn moving(&self) -> usize {
         self.fluids + self.open
     }
@@ -92,7 +91,7 @@ impl Particles {
         self.append(phase, position);
     }
 
-    /// Adds a particle at rest behind all others; [`Particles::arrange`] must give it its place and kind.
+    /// Appends a particle at rest; [`Particles::arrange`] must then sort it into fluid, buffers or walls.
     pub(crate) fn append(&mut self, phase: Phase, position: Vec2) {
         self.id.push(u32::try_from(self.len()).unwrap_or(u32::MAX));
         self.phase.push(phase);
@@ -102,7 +101,7 @@ impl Particles {
         self.part.push(0);
     }
 
-    /// Adds a particle like `a` with another phase, place (m) and name behind all others, as [`Particles::append`] does.
+    /// Appends a copy of particle `a` with another phase, position (m) and identifier; see [`Particles::append`].
     pub(crate) fn append_like(&mut self, a: usize, phase: Phase, position: Vec2, id: u32) {
         self.id.push(id);
         self.phase.push(phase);
@@ -112,7 +111,7 @@ impl Particles {
         self.part.push(self.part[a]);
     }
 
-    /// Keeps the particles of `order` in that order: `fluids` fluid ones, `open` in buffers, and walls.
+    /// Keeps the particles of `order`, in that order: `fluids` fluid particles, `open` in buffers, and walls.
     pub(crate) fn arrange(&mut self, order: &[usize], fluids: usize, open: usize) {
         self.reorder(order);
         (self.fluids, self.open, self.walls) = (fluids, open, order.len() - fluids - open);

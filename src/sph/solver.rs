@@ -1,4 +1,4 @@
-//! The SPH simulation as the simulation loop sees it.
+//! The SPH solver of the simulation loop.
 
 use std::sync::OnceLock;
 
@@ -19,48 +19,48 @@ use crate::sph::stages::Stages;
 use crate::sph::warnings::warnings;
 use crate::table::Document;
 
-/// A flow with all that is needed to observe it.
+/// A flow with what is needed to observe it.
 pub struct SphSolver {
     /// The flow.
     pub flow: Flow,
     /// Areas of the phases at time zero.
     start: PhaseAreas,
-    /// What is seen of the present state, once someone has looked.
+    /// Observation of the present state, computed on first use.
     seen: OnceLock<Observation>,
     surroundings: Surroundings,
-    /// The flows beside a frozen interface, one after the other, and the number of the present one.
+    /// The flows with a frozen interface, one after the other, and the number of the present one.
     frozen: Option<(FrozenInterface, usize)>,
-    /// What is measured beside what every run measures.
+    /// Measures in addition to those of every run.
     groups: Vec<Group>,
 }
 
-/// A text made from the particles and the capillary pressure in Pa.
+/// Generator of a document from the particles and the capillary pressure in Pa.
 pub(crate) type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
 
-/// What stands still around the flow.
+/// The fixed surroundings of the flow.
 pub(crate) struct Surroundings {
     /// Outline of the solids.
     pub(crate) outline: Lines<'static>,
-    /// Pieces of wall for the wetted length.
+    /// Samples of the wall for the wetted length.
     pub(crate) wall_samples: Vec<WallSample>,
     /// The discs among the solids.
     pub(crate) discs: Vec<DiscOf>,
-    /// The upright rectangles among the solids.
+    /// The axis-aligned rectangles among the solids.
     pub(crate) plates: Vec<Bounds>,
     /// Speeds of the walls at the left, right, bottom and top side in m/s.
     pub(crate) wall_speeds: [f64; 4],
-    /// Whether walls may have edges, where contact lines pin: they have not where there are no solids in the box.
+    /// Whether walls may have edges, where contact lines pin: not without solids in the box.
     pub(crate) has_edges: bool,
-    /// Body forces that act one after the other, where that is what is measured.
+    /// Body forces that act one after the other, for measurements of permeability.
     pub(crate) stages: Option<Stages>,
-    /// Distance of grid nodes in m.
+    /// Spacing of grid nodes in m.
     pub(crate) grid_spacing: f64,
-    /// Where the flow began with the state of a network: what it hands back.
+    /// If the flow started from the state of a network: the state that it returns.
     pub(crate) hand_back: Option<HandBack>,
 }
 
 impl SphSolver {
-    /// Least and largest angle in degrees at which every contact line rests, of a flow that nothing but its interface drives.
+    /// Smallest and largest angle in degrees at which every contact line is at rest, of a flow driven by its interface alone.
     fn angles_at_rest(&self) -> Option<[f64; 2]> {
         let config = &self.flow.config;
         let is_driven = config.method.gravity != Vec2::zeros()
@@ -78,23 +78,23 @@ impl SphSolver {
         let groups = Vec::new();
         let mut solver =
             Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings, frozen: None, groups };
-        solver.turn_force();
+        solver.update_force();
         solver
     }
 
-    /// A solver at time zero of the flows beside a frozen interface, one after the other.
+    /// A solver at time zero of the flows with a frozen interface, one after the other.
     pub(crate) fn beside(interface: FrozenInterface, surroundings: Surroundings) -> Self {
         let first = interface.first();
         Self { frozen: Some((interface, 0)), ..Self::new(first, surroundings) }
     }
 
-    /// The same solver that has the columns and measures of `groups` too.
+    /// The solver with the columns and measures of `groups`.
     pub(crate) fn measuring(self, groups: Vec<Group>) -> Self {
         Self { groups, ..self }
     }
 
-    /// Begins the flow of the present time beside a frozen interface, where it is not the one before.
-    fn turn_flow(&mut self) {
+    /// Starts the flow of the present stage with a frozen interface, if the stage has changed.
+    fn update_flow(&mut self) {
         if let (Some((interface, present)), Some(stages)) = (&mut self.frozen, &self.surroundings.stages) {
             let stage = stages.stage(self.flow.state.time);
             if stage != *present {
@@ -104,15 +104,15 @@ impl SphSolver {
         }
     }
 
-    /// Gives the flow the body force of its time, where several act one after the other.
-    fn turn_force(&mut self) {
+    /// Sets the body force of the present stage, if several act one after the other.
+    fn update_force(&mut self) {
         if let Some(stages) = &self.surroundings.stages {
             self.flow.config.method.gravity = stages.force(self.flow.state.time);
             self.flow.config.since = stages.since(self.flow.state.time);
         }
     }
 
-    /// What can be seen of the flow now. Found once between two steps: series, files and report all ask for it.
+    /// Observation of the present flow, computed at most once per step for series, files and report.
     pub(crate) fn observe(&self) -> &Observation {
         self.seen.get_or_init(|| Observation::of(&self.flow, &self.surroundings.wall_samples))
     }
@@ -155,8 +155,8 @@ impl Solver for SphSolver {
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         self.seen.take();
-        self.turn_flow();
-        self.turn_force();
+        self.update_flow();
+        self.update_force();
         let time = self.flow.state.time;
         self.flow.step(self.surroundings.stages.as_ref().map_or(until, |stages| stages.stop(time, until)))
     }
@@ -170,7 +170,7 @@ impl Solver for SphSolver {
     }
 
     fn sample(&self) -> Vec<Sample> {
-        let (flow, seen) = (&self.flow, self.observe());
+        let (flow, observed) = (&self.flow, self.observe());
         let fluids = flow.state.particles.fluids;
         let [error, _] = density_error(&flow.fields.bulk.volume[..fluids], flow.config.method.volume);
         let speed = flow.state.particles.fluid_speed();
@@ -179,25 +179,25 @@ impl Solver for SphSolver {
             ("time_s", flow.state.time),
             ("step", flow.state.steps as f64),
             ("dt_s", flow.state.last_dt),
-            ("saturation", seen.areas.saturation()),
-            ("interface_length_m", seen.interface_length()),
-            ("wetted_length_m", seen.wetted_length),
-            ("capillary_pressure_Pa", seen.capillary_pressure.value),
-            ("contact_angle_deg", seen.angle().mean_deg),
+            ("saturation", observed.areas.saturation()),
+            ("interface_length_m", observed.interface_length()),
+            ("wetted_length_m", observed.wetted_length),
+            ("capillary_pressure_Pa", observed.capillary_pressure.value),
+            ("contact_angle_deg", observed.angle().mean_deg),
             ("kinetic_energy_J_per_m", self.kinetic_energy()),
             ("max_speed_m_per_s", speed),
             ("density_error", error),
             ("ppe_iterations", flow.work.last_iterations as f64),
-            ("wetting_area_m2", seen.areas.wetting),
-            ("non_wetting_area_m2", seen.areas.non_wetting),
-            ("contact_lines", seen.contact_lines.len() as f64),
-            ("wetting_blobs", seen.wetting_blobs.len() as f64),
-            ("small_pieces", seen.small_pieces as f64),
+            ("wetting_area_m2", observed.areas.wetting),
+            ("non_wetting_area_m2", observed.areas.non_wetting),
+            ("contact_lines", observed.contact_lines.len() as f64),
+            ("wetting_blobs", observed.wetting_blobs.len() as f64),
+            ("small_pieces", observed.small_pieces as f64),
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];
-        let asked = columns(flow, seen, self.surroundings.stages.is_some(), &self.groups);
-        let mut row: Vec<Sample> = row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect();
+        let more = columns(flow, observed, self.surroundings.stages.is_some(), &self.groups);
+        let mut row: Vec<Sample> = row.into_iter().chain(more).map(|(name, value)| Sample { name, value }).collect();
         row.extend(samples_of_chip(flow, &row));
         row
     }
@@ -210,7 +210,7 @@ impl Solver for SphSolver {
         let kind = Quantity::Energy { speed: "max_speed_m_per_s", capillary_speed };
         let mut watched = vec![Watched { column: energy, kind }];
         if m.tension > 0.0 {
-            // An interface as curved as the domain is wide.
+            // The capillary pressure of an interface with the radius of the domain size.
             let pressure = Quantity::Pressure { scale: m.tension / size.max() };
             watched.push(Watched { column: "capillary_pressure_Pa", kind: pressure });
             watched.push(Watched { column: "saturation", kind: Quantity::Saturation });
@@ -247,7 +247,7 @@ impl Solver for SphSolver {
     }
 
     fn state(&self) -> Vec<u8> {
-        // Numbers into memory: postcard cannot fail here.
+        // Serializing numbers to memory cannot fail.
         let mut bytes = postcard::to_stdvec(&self.start).unwrap_or_default();
         if let Some((_, present)) = &self.frozen {
             bytes.extend(postcard::to_stdvec(present).unwrap_or_default());
@@ -266,7 +266,7 @@ impl Solver for SphSolver {
         }
         self.flow.load(flow)?;
         self.start = start;
-        self.turn_force();
+        self.update_force();
         Ok(())
     }
 

@@ -1,17 +1,17 @@
-//! Body forces that act one after the other in one run, so that the linear response of a slow flow to each is known at its end.
+//! Body forces that act one after the other in one run, to measure the linear response of a creeping flow to each.
 //!
-//! The force follows from the time alone, so that a resumed run turns it as an unbroken one.
+//! The force depends on time alone, so that a resumed run switches it as an uninterrupted one does.
 
 use crate::math::Vec2;
 use crate::solver::Series;
 
-/// Times closer than this share of a stage are one: far above the rounding of records, far below a time step.
+/// Times closer than this fraction of a stage count as equal: far above the rounding of records, far below a time step.
 const SAME: f64 = 1.0e-9;
 
 /// Stages of equal length, each with a body force along one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stages {
-    /// Axes that a force acts along, 0 for x and 1 for y, in order.
+    /// Axis of the force in each stage, 0 for x and 1 for y.
     axes: Vec<usize>,
     /// Body force per mass in m/s², whose components act one after the other.
     force: Vec2,
@@ -20,15 +20,14 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// The components of `force` (m/s²) that are not zero, x first, for the same time each until `end` (s); none where there is no force.
+    /// The nonzero components of `force` (m/s²), x first, for equal times until `end` (s); `None` without a force.
     pub(crate) fn new(force: Vec2, end: f64) -> Option<Self> {
         let axes: Vec<usize> = (0..2).filter(|&axis| force[axis] != 0.0).collect();
         let length = end / axes.len() as f64;
         (!axes.is_empty()).then_some(Self { axes, force, length })
     }
 
-    /// The `force` (m/s²), which is along one axis, `times` over for the same time each until `end` (s): for a flow that begins anew each time. None
-    /// where there is no force.
+    /// The `force` (m/s²), which is along one axis, in `times` stages of equal length until `end` (s), each with a new flow. `None` without a force.
     pub(crate) fn repeated(force: Vec2, times: usize, end: f64) -> Option<Self> {
         let of_one = Self::new(force, end)?;
         let axis = of_one.axes[0];
@@ -40,28 +39,28 @@ impl Stages {
         &self.axes
     }
 
-    /// Body force per mass in m/s² of the step that begins at `time` (s).
+    /// Body force per mass in m/s² of the step that starts at `time` (s).
     pub(crate) fn force(&self, time: f64) -> Vec2 {
         self.force_of(self.stage(time))
     }
 
-    /// The stage of the step that begins at `time` (s).
+    /// The stage of the step that starts at `time` (s).
     pub(crate) fn stage(&self, time: f64) -> usize {
         (1..self.axes.len()).filter(|&stage| self.starts_by(stage, time)).count()
     }
 
-    /// Start in s of the stage of the step that begins at `time` (s).
+    /// Start in s of the stage of the step that starts at `time` (s).
     pub(crate) fn since(&self, time: f64) -> f64 {
         self.start(self.stage(time))
     }
 
-    /// Body force per mass in m/s² of a stage; none of one that is not there.
+    /// Body force per mass in m/s² of a stage; zero beyond the last one.
     pub(crate) fn force_of(&self, stage: usize) -> Vec2 {
         let acts = |axis| self.axes.get(stage) == Some(&axis);
         Vec2::from_fn(|axis, _| if acts(axis) { self.force[axis] } else { 0.0 })
     }
 
-    /// The end of a step from `time` (s) to `until` (s), at the next turn of the force where that comes first.
+    /// The end of a step from `time` (s) to `until` (s), or the next change of the force if that comes first.
     pub(crate) fn stop(&self, time: f64, until: f64) -> f64 {
         let starts = (1..self.axes.len()).filter(|&stage| !self.starts_by(stage, time));
         starts.map(|stage| self.start(stage)).fold(until, |stop, start| {
@@ -70,7 +69,7 @@ impl Stages {
         })
     }
 
-    /// The last two rows of the series within a stage, which may begin with the row at its start; none where it has fewer.
+    /// The last two rows of the series within a stage, including the row at its start; `None` if it has fewer.
     pub(crate) fn last_rows<'s>(&self, series: &'s Series, stage: usize) -> Option<[&'s [f64]; 2]> {
         let slack = SAME * self.length;
         let (from, to) = (self.start(stage) - slack, self.start(stage + 1) + slack);

@@ -1,4 +1,4 @@
-//! The state of a flow: what a step goes on from, and so what a resumed run needs. Everything else follows from it.
+//! The state of a flow, from which a step starts or a resumed run continues. Everything else is derived from it.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use crate::sph::open::{BoundaryFluxes, GivenFlow};
 use crate::sph::particles::Particles;
 use crate::sph::wetting::lines::TrackedLine;
 
-/// What restart saves: these fields in this order.
+/// The saved state of a restart: these fields in this order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlowState {
     /// Time in s.
@@ -20,18 +20,18 @@ pub struct FlowState {
     pub particles: Particles,
     /// Depth of each wall particle in m.
     pub wall_depth: Vec<f64>,
-    /// The contact lines as the last step left them; those of the present positions are [`Flow::lines`](crate::sph::flow::Flow::lines).
+    /// The contact lines at the start of the last step; those of the present positions are [`Flow::lines`](crate::sph::flow::Flow::lines).
     pub lines: Vec<TrackedLine>,
-    /// What passed through the sides.
+    /// Fluxes through the sides.
     pub fluxes: BoundaryFluxes,
-    /// How the given flow through each periodic side of `Open::through` goes on.
+    /// State of the given flow through each periodic side of `Open::through`.
     pub given_flows: Vec<GivenFlow>,
-    /// The unit vector along the wall that the contact lines had gone a spacing along, once they had.
+    /// Direction along the wall in which the contact lines first moved by one spacing; `None` before.
     pub gone: Option<Vec2>,
 }
 
 impl FlowState {
-    /// The state at time zero. `wall_depth` in m as `fill` returns it; `given_flows` periodic sides have a given flow rate.
+    /// The state at time zero. `wall_depth` in m as returned by `fill`; `given_flows` is the number of periodic sides with a given flow rate.
     pub(crate) fn new(particles: Particles, wall_depth: Vec<f64>, given_flows: usize) -> Self {
         let next_id = u32::try_from(particles.len()).unwrap_or(u32::MAX);
         Self {

@@ -5,56 +5,56 @@ use std::f64::consts::PI;
 use crate::case::{ViscousStep, ViscousTerm};
 use crate::sph::method::Method;
 
-/// Courant number on the smoothing length, without surface tension. It bounds the error of the motion, since particles move with the flow.
+/// Courant number on the smoothing length, without surface tension. It bounds the error of particle trajectories.
 const COURANT: f64 = 0.125;
 
-/// The same with surface tension, where the measures of the gallery do not tell one from the other (docs/numerics/forces.md, "Limit by
-/// velocity").
+/// Courant number with surface tension, where the measures of the gallery do not differ between the two values (docs/numerics/forces.md,
+/// "Limit by velocity").
 const COURANT_WITH_TENSION: f64 = 0.25;
 
-/// The largest Courant number that a factor on the step may ask for: with the overshoot below it stays under the way that ends a run.
+/// Largest Courant number for any factor on the step: with the overshoot below, displacements remain under the limit that ends a run.
 const LARGEST_COURANT: f64 = 0.3;
 
-/// A step that would carry a particle farther than the Courant number allows times this is taken again, shorter: from rest no velocity
-/// tells what forces will do.
+/// A step in which a particle moves farther than the Courant number times this is repeated with a shorter step: at rest the velocity does not
+/// indicate the effect of forces.
 const OVERSHOOT: f64 = 1.5;
 
-/// Factor on sqrt(ρ̄ h³/(2πσ)): the limit of Brackbill et al. 1992 for waves of two spacings is .54 at h = 1.5 dx. Explicit steps keep to
-/// it, and so does the time of the density-error correction: measured, less often is less even.
+/// Factor on sqrt(ρ̄ h³/(2πσ)): the limit of Brackbill et al. 1992 for waves of two spacings is .54 at h = 1.5 dx. Used for explicit
+/// steps, and for the time of the density-error correction: less frequent corrections give a measurably less uniform density.
 const CAPILLARY: f64 = 0.5;
 
-/// The same where viscosity is implicit. The fitted curvature damps short waves: the stiffest have 5 spacings, and steps are stable up to 4.5.
+/// The factor with implicit viscosity. The fitted curvature damps short waves: the stiffest have 5 spacings, and steps are stable up to 4.5.
 const LONG_CAPILLARY: f64 = 2.0;
 
-/// The same for a flow near rest, of which a longer step loses nothing.
+/// The factor for a flow near rest, where a longer step does not reduce the accuracy.
 const RESTING_CAPILLARY: f64 = 4.0;
 
-/// Above this density ratio both are halved: at 1000 longer steps throw particles of the liquid into the gas.
+/// Density ratio above which both are halved: at 1000 longer steps eject particles of the liquid into the gas.
 const LIGHT_GAS: f64 = 20.0;
 
-/// Longest implicit step without surface tension over the time in which the slowest viscous motion decays: pressure and flow settle together.
+/// Longest implicit step without surface tension over the decay time of the slowest viscous mode: pressure and flow settle together.
 const VISCOUS: f64 = 0.25;
 
-/// The same over the time since when the forces act, where the pressure is that of the end of the step: what is left to change by then changes slowly.
+/// Longest implicit step over the time since the forces were applied, if the pressure is that of the end of the step: later changes are slow.
 const VISCOUS_LATER: f64 = 0.125;
 
 /// A flow slower than this over the capillary speed is near rest.
 const SLOW: f64 = 1e-3;
 
-/// Szewc's form acts along the line of centers with four times the coefficient of Morris's, half of it on average.
+/// Szewc's form acts along the line of centers with four times the coefficient of Morris's form, on average with twice.
 const SZEWC_OVER_MORRIS: f64 = 2.0;
 
-/// A step below this share of the static limits means that a velocity has run away.
+/// A step below this fraction of the static limits indicates a diverging velocity.
 const COLLAPSE: f64 = 1e-3;
 
-/// What the limits are multiplied with.
+/// Factors of the limits.
 struct Constants {
     velocity: f64,
     body_force: f64,
     capillary: f64,
 }
 
-/// A time step with the limit that rules it.
+/// A time step with the limit that determines it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TimeStep {
     /// Δt in s.
@@ -64,7 +64,7 @@ pub(crate) struct TimeStep {
 }
 
 impl TimeStep {
-    /// This step, or one of length `dt` (s) by another limit if that is shorter.
+    /// The shorter of this step and one of length `dt` (s) by another limit.
     pub(crate) fn tighter(self, dt: f64, limit: &'static str) -> Self {
         if dt < self.dt { Self { dt, limit } } else { self }
     }
@@ -77,7 +77,7 @@ impl Method {
         self.inviscid_time_step(speed).tighter(self.numerics.time_step_factor * over_rate / viscous_rate, "viscosity")
     }
 
-    /// The same without the limit by viscosity.
+    /// [`Self::time_step`] without the viscous limit.
     pub(crate) fn inviscid_time_step(&self, speed: f64) -> TimeStep {
         let f = self.numerics.time_step_factor;
         let capillary = match self.numerics.viscous_step {
@@ -88,18 +88,18 @@ impl Method {
         self.bounded(speed, &Constants { velocity: self.courant(), body_force, capillary: f * capillary })
     }
 
-    /// The largest Δt in s where a contact line is pinned. The curvature of the end of the step, which is used there, makes steps
-    /// unstable above a factor of 4.5/√3 = 2.6, so that neither rest nor a factor of the user makes them longer.
+    /// The largest Δt in s if a contact line is pinned. The curvature at the end of the step, which is used there, makes steps
+    /// unstable above a factor of 4.5/√3 = 2.6, so that neither rest nor the factor in the case makes them longer.
     pub(crate) fn pinned_time_step(&self) -> f64 {
         self.numerics.time_step_factor.min(1.0) * self.moving_capillary() * self.time_of_waves()
     }
 
-    /// The largest Δt in s where the slowest viscous motion decays in `viscous_time` (s) and the forces have acted for `age` (s).
+    /// The largest Δt in s for the decay time `viscous_time` (s) of the slowest viscous mode and forces that have acted for `age` (s).
     pub(crate) fn viscous_time_step(&self, viscous_time: f64, age: f64) -> f64 {
         self.numerics.time_step_factor * (VISCOUS * viscous_time).max(VISCOUS_LATER * age)
     }
 
-    /// Factor of the limit by surface tension in a flow that moves.
+    /// Factor of the capillary limit in a moving flow.
     fn moving_capillary(&self) -> f64 {
         match self.numerics.viscous_step {
             ViscousStep::Implicit => self.in_gas() * LONG_CAPILLARY,
@@ -116,18 +116,18 @@ impl Method {
         (self.mean_density() * self.kernel.h.powi(3) / (2.0 * PI * self.tension)).sqrt()
     }
 
-    /// The Courant number of the limit by velocity without a factor on the step.
+    /// The Courant number without the factor on the step.
     fn usual_courant(&self) -> f64 {
         if self.tension > 0.0 { COURANT_WITH_TENSION } else { COURANT }
     }
 
-    /// That with it.
+    /// The Courant number with the factor on the step.
     fn courant(&self) -> f64 {
         (self.numerics.time_step_factor * self.usual_courant()).min(LARGEST_COURANT)
     }
 
-    /// The time in s in which the pressure takes its share of the density error back, whatever the step: with the shortest of the constants,
-    /// since measured, less often is less even.
+    /// The time in s over which the pressure corrects the density error, independent of the step: with the smallest constants, since less
+    /// frequent corrections give a measurably less uniform density.
     pub fn density_correction_time(&self, speed: f64) -> f64 {
         self.bounded(speed, &Constants { velocity: COURANT, body_force: COURANT, capillary: CAPILLARY }).dt
     }
@@ -141,22 +141,22 @@ impl Method {
             .tighter(constants.velocity * h / speed, "velocity")
     }
 
-    /// The step in s to take in place of one of length `dt` (s) in which a particle goes as far as `way` (m); none if it may go so far.
+    /// The step in s to replace one of length `dt` (s) in which a particle moves by `displacement` (m); `None` if that is allowed.
     ///
-    /// What goes too far is taken to be accelerated: its way falls with the square of the step.
-    pub(crate) fn shorter_step(&self, dt: f64, way: f64) -> Option<f64> {
-        let meant = self.courant() * self.kernel.h;
-        (way > OVERSHOOT * meant).then(|| dt * (meant / way).sqrt())
+    /// Assumes acceleration from rest: the displacement is proportional to the square of the step.
+    pub(crate) fn shorter_step(&self, dt: f64, displacement: f64) -> Option<f64> {
+        let allowed = self.courant() * self.kernel.h;
+        (displacement > OVERSHOOT * allowed).then(|| dt * (allowed / displacement).sqrt())
     }
 
-    /// The smallest Δt that is accepted, in s.
+    /// The smallest accepted Δt in s.
     pub(crate) fn smallest_time_step(&self, viscous_rate: f64) -> f64 {
         let step = self.time_step(0.0, viscous_rate).dt;
         if step.is_finite() { COLLAPSE * step } else { 0.0 }
     }
 }
 
-/// Shortens `step` so that it lands on `until` (s) from `time` (s) without a last sliver.
+/// Shortens `step` so that steps from `time` (s) end at `until` (s) without a very short last one.
 pub(crate) fn landing(step: TimeStep, time: f64, until: f64) -> TimeStep {
     let left = until - time;
     if step.dt >= left {

@@ -1,24 +1,24 @@
-//! The parts of both phases that the particles do not resolve: small pieces, thin films.
+//! The parts of both phases below the resolution of the particles: small ganglia, thin films.
 
 use crate::analysis::blobs::{Blob, LINK, blobs};
 use crate::analysis::resolution::thin_parts;
 use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
 
-/// Pieces of fewer particles than this, five across, have no curvature that a fit could find.
+/// Number of particles, five across, below which the curvature of a ganglion cannot be fitted.
 pub(crate) const SMALLEST_PIECE: usize = 20;
 
 /// Where a phase is thinner than about three particles.
 #[derive(Debug, Clone)]
 pub(crate) struct ThinParts {
-    /// Whether the phase around each fluid particle is that thin.
+    /// Whether the phase is that thin around each fluid particle.
     pub(crate) is_thin: Vec<bool>,
-    /// Thin particles over the number of particles of the phase that has fewer.
+    /// Number of thin particles over that of all particles of the smaller phase.
     pub(crate) share: f64,
 }
 
 impl ThinParts {
-    /// Looks at the fluid of a flow.
+    /// The thin parts in a flow.
     pub(crate) fn of(flow: &Flow) -> Self {
         let (is_wetting, smaller) = (wetting(flow), smaller_phase(flow));
         if smaller == 0 {
@@ -31,7 +31,7 @@ impl ThinParts {
     }
 }
 
-/// Connected pieces of either phase with fewer particles than have a curvature; `wetting_pieces` are those of the wetting phase.
+/// Number of ganglia of either phase with too few particles for a curvature; `wetting_pieces` are the ganglia of the wetting phase.
 pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
     if smaller_phase(flow) == 0 {
         return 0;
@@ -39,8 +39,8 @@ pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
     let others: Vec<bool> = wetting(flow).iter().map(|wetting| !wetting).collect();
     let (points, volumes) = (&flow.state.particles.position[..others.len()], &flow.fields.bulk.volume[..others.len()]);
     let link = LINK * flow.config.method.spacing;
-    let pieces = blobs(points, volumes, &others, link, flow.config.domain.periods());
-    wetting_pieces.iter().chain(&pieces).filter(|piece| piece.count < SMALLEST_PIECE).count()
+    let ganglia = blobs(points, volumes, &others, link, flow.config.domain.periods());
+    wetting_pieces.iter().chain(&ganglia).filter(|ganglion| ganglion.count < SMALLEST_PIECE).count()
 }
 
 /// Whether each fluid particle is of the wetting phase.
@@ -49,7 +49,7 @@ fn wetting(flow: &Flow) -> Vec<bool> {
     p.phase[..p.fluids].iter().map(|phase| *phase == Phase::Wetting).collect()
 }
 
-/// Number of particles of the phase that has fewer; 0 without an interface.
+/// Number of particles of the smaller phase; 0 without an interface.
 fn smaller_phase(flow: &Flow) -> usize {
     if flow.config.method.tension == 0.0 {
         return 0;

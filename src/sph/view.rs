@@ -1,4 +1,4 @@
-//! A flow at one time, to read.
+//! Read access to a flow at one time.
 
 use crate::math::Vec2;
 use crate::sph::configuration::Configuration;
@@ -7,12 +7,12 @@ use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{GivenFlow, OpenSide};
 use crate::sph::state::FlowState;
 
-/// What is given, what a step goes on from, what lies around each particle, and the fields `F` found from these so far: a function that
-/// takes a view reads no other field, and changes nothing.
+/// Configuration, state, neighborhood, and the fields `F` computed from these so far: a function with a view as argument reads no other
+/// fields and changes nothing.
 pub struct View<'a, F> {
-    /// What is given.
+    /// Configuration.
     pub config: &'a Configuration,
-    /// What a step goes on from.
+    /// State from which a step starts.
     pub state: &'a FlowState,
     /// Pairs and images.
     pub neighborhood: &'a Neighborhood,
@@ -21,13 +21,13 @@ pub struct View<'a, F> {
 }
 
 impl<'a, F> View<'a, F> {
-    /// The same flow with other fields.
+    /// The flow with other fields.
     pub(crate) fn with<G>(&self, fields: &'a G) -> View<'a, G> {
         let &Self { config, state, neighborhood, .. } = self;
         View { config, state, neighborhood, fields }
     }
 
-    /// x_a − x_b in m, of a particle and a particle or image.
+    /// x_a − x_b in m, of a particle a and a particle or image b.
     #[inline]
     pub(crate) fn separation(&self, a: usize, b: usize) -> Vec2 {
         let position = &self.state.particles.position;
@@ -39,7 +39,7 @@ impl<'a, F> View<'a, F> {
         self.neighborhood.images.velocity_field(self.state.particles.velocity.clone())
     }
 
-    /// The periodic sides with a given flow rate, each with how its flow goes on.
+    /// The periodic sides with a given flow rate, each with the state of its flow.
     pub(crate) fn given_flows(&self) -> impl Iterator<Item = (&'a OpenSide, &'a GivenFlow)> + use<'a, F> {
         self.config.open.through.iter().zip(&self.state.given_flows)
     }

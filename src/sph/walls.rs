@@ -1,11 +1,11 @@
-//! Fields of the wall particles. Walls rest: found once.
+//! Fields of the wall particles, which are at rest: computed once.
 
 use crate::math::Vec2;
 use crate::sph::configuration::Configuration;
 use crate::sph::images::Images;
 use crate::sph::particles::Particles;
 
-/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
+/// Cosine between the wall normals of two wall particles below which they belong to opposite sides of a solid.
 const OPPOSITE: f64 = -0.5;
 
 /// Fields over wall particles.
@@ -18,15 +18,15 @@ pub struct WallFields {
 }
 
 impl WallFields {
-    /// Finds where each wall particle faces and how its wall bends.
+    /// Normal and curvature of the wall nearest to each wall particle.
     pub(crate) fn of(config: &Configuration, particles: &Particles) -> Self {
         let walls = &particles.position[particles.moving()..];
         let facing = walls.iter().map(|&x| (config.wall)(x).1).collect();
         Self { facing, curvature: walls.iter().map(|&x| config.curvature_of_wall(x)).collect() }
     }
 
-    /// Whether the pressures of two particles or images are coupled: all but those of wall particles that belong to opposite sides of a thin
-    /// solid, through which the pressure of one side would reach the other. `moving` particles come before the walls.
+    /// Whether the pressures of two particles or images are coupled: all except wall particles on opposite sides of a thin solid, through which
+    /// the pressure would leak from one side to the other. `moving` particles precede the walls.
     pub(crate) fn joined(&self, moving: usize, images: &Images) -> impl Fn(usize, usize) -> bool + use<> {
         let facing = images.reflected_field([&vec![Vec2::zeros(); moving], &self.facing[..]].concat());
         move |a, b| facing[a].dot(&facing[b]) > OPPOSITE

@@ -1,4 +1,4 @@
-//! What of a flow is out of the reach of its resolution, in words for the reader of its measures.
+//! Warnings about results of a flow that its resolution does not support.
 
 use crate::interface::cap::cap;
 use crate::interface::contact::ContactLine;
@@ -8,50 +8,50 @@ use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 use crate::sph::unresolved::SMALLEST_PIECE;
 
-/// Share of the smaller phase in thin parts from which a reader must know: the wedges at contact lines stay below it.
+/// Fraction of the smaller phase in thin parts above which a warning is issued: the wedges at contact lines remain below it.
 const LARGEST_THIN_SHARE: f64 = 0.01;
 
-/// Spacings across a drop or a film that its measures need.
+/// Spacings required across a drop or a film.
 const ENOUGH: f64 = 8.0;
 
-/// Films on floor and lid thinner than this share of the depth are not told: with both less than 1 % of the pore is left behind.
+/// Films on floor and lid thinner than this fraction of the depth are not reported: both together leave less than 1 % of the pore behind.
 const LEAST_FILM: f64 = 5e-3;
 
 /// Cosine between the wall normals at both contact lines of a drop on a plane.
 const SAME_WALL: f64 = 0.9;
 
-/// Angles as near as this to 0 or 180 degrees are told apart by the place of the interface to the second order only, in degrees.
+/// Distance of an angle from 0 or 180 degrees, in degrees, within which the position of the interface depends on it to second order only.
 const LIMITING_ANGLE: f64 = 10.0;
 
-/// Speed over sqrt(tension / (density R)) from which currents in a drop at rest are told.
+/// Speed over sqrt(tension / (density R)) above which currents in a drop at rest are reported.
 const LARGEST_CURRENT: f64 = 5e-3;
 
-/// Share of its length by which the interface of a drop that keeps its shape may change.
+/// Largest relative change of the length of the interface of a drop that keeps its shape.
 const SAME_SHAPE: f64 = 2e-3;
 
-/// Fewest records of the last fifth of the run to judge by.
+/// Minimum number of records in the last fifth of the run.
 const FEWEST: usize = 5;
 
-/// Differences of angles that are rounding, in degrees and in rad.
+/// Rounding tolerance of angles, in degrees and in rad.
 const ROUNDING: f64 = 1e-9;
 
-/// The warnings that a flow asks for now.
-pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
+/// The warnings about the present flow.
+pub(crate) fn warnings(flow: &Flow, observed: &Observation, series: &Series) -> Vec<String> {
     if flow.config.method.tension == 0.0 {
         return thin_layer(flow).into_iter().collect();
     }
     let found = [
         thin_layer(flow),
         films_left(flow),
-        pieces_and_films(flow, seen, series),
-        low_drop(flow, seen),
+        pieces_and_films(flow, observed, series),
+        low_drop(flow, observed),
         limiting_angle(flow),
-        parasitic_currents(flow, seen, series),
+        parasitic_currents(flow, observed, series),
     ];
     found.into_iter().flatten().collect()
 }
 
-/// The layer beside walls in which the flow between floor and lid slows down, b √(α/12), where it is thinner than the spacing.
+/// The warning if the boundary layer at walls between floor and lid, b √(α/12), is thinner than the spacing.
 fn thin_layer(flow: &Flow) -> Option<String> {
     let method = &flow.config.method;
     let plates = method.plates?;
@@ -65,8 +65,8 @@ fn thin_layer(flow: &Flow) -> Option<String> {
     })
 }
 
-/// Menisci so fast that they leave films of the wetting phase on floor and lid where it recedes. The speed is the mean one in the pore: that of the given flow,
-/// or of the particles where they are faster.
+/// The warning if menisci are so fast that the receding wetting phase leaves films on floor and lid. The speed is the mean in the pore: the larger of
+/// that of the given flow and that of the particles.
 fn films_left(flow: &Flow) -> Option<String> {
     let (m, p) = (&flow.config.method, &flow.state.particles);
     let plates = m.plates?;
@@ -81,15 +81,15 @@ fn films_left(flow: &Flow) -> Option<String> {
     plates.depth.film_left(number).filter(|film| *film >= LEAST_FILM).map(|film| {
         format!(
             "at Ca = {number:.1e} of the wetting phase and an angle of {:.0} degrees receding menisci leave films on floor and lid (Bretherton 1961: {film:.1e} \
-             of the depth each), which are left out: where the wetting phase is displaced, less of it is in truth",
+             of the depth each), which are not modeled: in reality less of the wetting phase is displaced",
             plates.depth.wettest().to_degrees()
         )
     })
 }
 
-/// Pieces and films below the resolution, now or at any record before.
-fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
-    let (share, small_pieces) = (seen.thin(flow).share, seen.small_pieces);
+/// The warning about ganglia and films below the resolution, now or at any earlier record.
+fn pieces_and_films(flow: &Flow, observed: &Observation, series: &Series) -> Option<String> {
+    let (share, small_pieces) = (observed.thin(flow).share, observed.small_pieces);
     let most = most_small_pieces(series);
     let before = most.filter(|(most, _)| *most > small_pieces as f64);
     if small_pieces == 0 && before.is_none() && share < LARGEST_THIN_SHARE {
@@ -99,19 +99,19 @@ fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<
     let before = before.map(|(most, time)| format!(" ({most} at t = {time:.4e} s)")).unwrap_or_default();
     Some(format!(
         "{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles{before}, and films thinner than three particles with {percent:.1} % of \
-         the smaller phase, are not resolved: what hangs on them (pieces counted, trapped fluid, angles beside them) is not a result; compare \
+         the smaller phase, are not resolved: results that depend on them (numbers of pieces, trapped fluid, angles next to them) are not reliable; compare \
          with sph.spacing = {half:.4e}"
     ))
 }
 
-/// The most pieces below the resolution of all records, and when there were so many first, in s.
+/// The largest number of ganglia below the resolution at any record, and the first time in s with that number.
 pub(crate) fn most_small_pieces(series: &Series) -> Option<(f64, f64)> {
     let records = series.column("small_pieces").zip(series.column("time_s"));
     records.reduce(|most, record| if record.0 > most.0 { record } else { most })
 }
 
-/// Currents of a thin liquid in a free drop that nothing drives and that keeps its shape.
-fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
+/// The warning about parasitic currents in a free drop of low viscosity that is not driven and keeps its shape.
+fn parasitic_currents(flow: &Flow, observed: &Observation, series: &Series) -> Option<String> {
     let (m, p) = (&flow.config.method, &flow.state.particles);
     let is_driven = m.gravity != Vec2::zeros()
         || !flow.config.open.sides.is_empty()
@@ -123,19 +123,22 @@ fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Optio
     let (lengths, speeds) = (last("interface_length_m"), last("max_speed_m_per_s"));
     let (low, high) =
         lengths.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), l| (low.min(*l), high.max(*l)));
-    if is_driven || lengths.len() < FEWEST || !seen.contact_lines.is_empty() || high - low > SAME_SHAPE * high {
+    if is_driven || lengths.len() < FEWEST || !observed.contact_lines.is_empty() || high - low > SAME_SHAPE * high {
         return None;
     }
-    let is_wetting = seen.areas.wetting < seen.areas.non_wetting;
-    let (fluid, area) =
-        if is_wetting { (m.wetting_fluid, seen.areas.wetting) } else { (m.other_fluid, seen.areas.non_wetting) };
+    let is_wetting = observed.areas.wetting < observed.areas.non_wetting;
+    let (fluid, area) = if is_wetting {
+        (m.wetting_fluid, observed.areas.wetting)
+    } else {
+        (m.other_fluid, observed.areas.non_wetting)
+    };
     let radius = (area / std::f64::consts::PI).sqrt();
     let scale = (m.tension / (fluid.density * radius)).sqrt();
     let speed = speeds.into_iter().fold(0.0, f64::max);
     (speed > LARGEST_CURRENT * scale).then(|| {
         format!(
             "a drop that keeps its shape has currents of up to {speed:.1e} m/s, Ca = {:.1e}, {:.1} % of sqrt(tension / (density R)): the surface force \
-             drives them where a liquid is thin (Oh = {:.1e}), and slower motions are not a result; compare with a larger viscosity",
+             drives them where a liquid is thin (Oh = {:.1e}), and slower motions are not resolved; compare with a larger viscosity",
             fluid.viscosity * speed / m.tension,
             100.0 * speed / scale,
             fluid.viscosity / (fluid.density * m.tension * radius).sqrt()
@@ -143,15 +146,15 @@ fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Optio
     })
 }
 
-/// A drop on a plane of the asked-for angle that is only a few spacings high.
-fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
+/// The warning if a drop with the requested angle on a plane is only a few spacings high.
+fn low_drop(flow: &Flow, observed: &Observation) -> Option<String> {
     let angle = flow.config.method.wetting?.static_angle();
-    let areas = seen.areas;
+    let areas = observed.areas;
     let is_wetting = areas.wetting < areas.non_wetting;
     let (area, through) =
         if is_wetting { (areas.wetting, angle) } else { (areas.non_wetting, std::f64::consts::PI - angle) };
-    // A meniscus between two walls is no drop.
-    let [a, b] = &seen.contact_lines[..] else { return None };
+    // A meniscus between two walls is not a drop.
+    let [a, b] = &observed.contact_lines[..] else { return None };
     let normal = |line: &ContactLine| (flow.config.wall)(line.position).1;
     if normal(a).dot(&normal(b)) < SAME_WALL || area <= 0.0 {
         return None;
@@ -169,7 +172,7 @@ fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
     })
 }
 
-/// Whether an angle in degrees is within [`LIMITING_ANGLE`] of 0 or 180, the bound included.
+/// Whether an angle in degrees is within [`LIMITING_ANGLE`] of 0 or 180, inclusive.
 fn is_limiting(angle: f64) -> bool {
     angle.min(180.0 - angle) <= LIMITING_ANGLE + ROUNDING
 }
@@ -178,7 +181,7 @@ fn limiting_angle(flow: &Flow) -> Option<String> {
     let angle = flow.config.method.wetting?.static_angle().to_degrees();
     is_limiting(angle).then(|| {
         format!(
-            "at an angle of {angle:.1} degrees pressures and places are those asked for, but an angle measured from the interface has an \
+            "at an angle of {angle:.1} degrees pressures and positions are those requested, but an angle measured from the interface has an \
              error bar of some degrees: within {LIMITING_ANGLE:.0} degrees of complete wetting or drying it hardly changes the shape"
         )
     })

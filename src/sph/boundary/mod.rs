@@ -1,4 +1,4 @@
-//! What walls do: no slip, and fields carried from the fluid into the wall particles.
+//! Wall boundary conditions: no slip, and extrapolation of fields from the fluid into the wall particles.
 
 pub(crate) mod no_slip;
 pub(crate) mod shepard;

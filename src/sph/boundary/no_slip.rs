@@ -1,17 +1,17 @@
-//! The velocity of walls in the viscous term, extrapolated by the distance to the wall (Morris et al. 1997, section 3.4), as the
-//! paper uses it; with a slip length, to the plane behind the wall where the velocity of the fluid would vanish \[Navier1823\]. Near contact
-//! lines walls have a slip length of their own: a line on a wall without slip cannot move \[Huh1971\], and what the particles
-//! slip by themselves is too little for a line that is driven hard, which then runs over those next to the wall.
+//! The velocity of wall particles in the viscous term, extrapolated by the distance to the wall (Morris et al. 1997, section 3.4), as in
+//! the paper; with a slip length, to the plane behind the wall where the velocity of the fluid would vanish \[Navier1823\]. Near contact
+//! lines walls have a separate slip length: a line on a wall without slip cannot move \[Huh1971\], and the numerical slip of the
+//! particles is too small for a strongly driven line, which then overruns the particles next to the wall.
 
 use crate::math::Vec2;
 
-/// Closest distance of a fluid particle to a wall that is used, in units of dx: nearer ones would meet an endless shear.
+/// Lower bound of the distance of a fluid particle to a wall, in units of dx: below it the shear rate would diverge.
 const CLOSEST: f64 = 0.25;
 
-/// Distances from a contact line over dx: up to the first the wall has the slip length of lines, beyond the second that of walls.
+/// Distances from a contact line over dx: up to the first the wall has the slip length of contact lines, beyond the second that of walls.
 const NEAR_LINE: [f64; 2] = [3.0, 6.0];
 
-/// Velocity differences between fluid and wall particles.
+/// No-slip or Navier slip condition in the velocity differences between fluid and wall particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoSlip {
     /// Initial particle spacing dx in m.
@@ -20,14 +20,14 @@ pub struct NoSlip {
     pub largest_stretch: f64,
     /// Navier's slip length b in m: along the wall, u = b ∂u/∂n on its surface. 0: no slip.
     pub slip_length: f64,
-    /// The same near contact lines.
+    /// Slip length in m near contact lines.
     pub line_slip_length: f64,
 }
 
-/// Where a wall particle stands.
+/// Position of a wall particle relative to the surface of the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WallDepth {
-    /// Its depth in the wall in m.
+    /// Depth in the wall in m.
     pub(crate) depth: f64,
     /// Curvature of the wall in 1/m, positive where the solid is convex.
     pub(crate) curvature: f64,
@@ -42,30 +42,30 @@ impl NoSlip {
         self.stretch_to(distance, wall, 0.0)
     }
 
-    /// The same where the velocity vanishes at the depth `b` in m.
+    /// [`Self::stretch`] for a velocity that vanishes at the depth `b` in m.
     fn stretch_to(&self, distance: f64, wall: WallDepth, b: f64) -> f64 {
         let (d_a, d_b) = (distance.max(CLOSEST * self.spacing), wall.depth.max(0.0));
-        let bent = 1.0 + 0.5 * wall.curvature * (d_a + d_b);
-        (1.0 + bent * (d_b - b) / (d_a + b)).min(self.largest_stretch)
+        let c = 1.0 + 0.5 * wall.curvature * (d_a + d_b);
+        (1.0 + c * (d_b - b) / (d_a + b)).min(self.largest_stretch)
     }
 
     /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite.
     pub(crate) fn slip_length_at(&self, line_distance: f64) -> f64 {
         let [near, far] = NEAR_LINE.map(|n| n * self.spacing);
-        let share = ((far - line_distance) / (far - near)).clamp(0.0, 1.0);
-        self.slip_length + share * (self.line_slip_length - self.slip_length)
+        let weight = ((far - line_distance) / (far - near)).clamp(0.0, 1.0);
+        self.slip_length + weight * (self.line_slip_length - self.slip_length)
     }
 
     /// Stretches of the velocity difference along the wall and across it, for the slip length `b` (m).
     ///
-    /// Never below zero: along a wall that bends and slips far the first order could push what it is to hold.
+    /// Never below zero: along a curved wall with a large slip length the first-order formula could accelerate the fluid instead of retarding it.
     pub(crate) fn stretches(&self, distance: f64, wall: WallDepth, b: f64) -> [f64; 2] {
         let across = self.stretch(distance, wall);
         [if b == 0.0 { across } else { self.stretch_to(distance, wall, b).max(0.0) }, across]
     }
 
     /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
-    /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) and `normal` are those of the wall.
+    /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) from and `normal` of the wall.
     pub(crate) fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
         let [along, beta] = self.stretches(distance, wall, b);
         if b == 0.0 {
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn a_velocity_that_vanishes_behind_the_wall_is_extrapolated_to_its_particles() {
         let wall = NoSlip { spacing: 1.0, largest_stretch: 10.0, slip_length: 2.0, line_slip_length: 2.0 };
-        // u = y + b over the wall y = 0, which rises at 3: at the depth d it is b − d, and v_y = 3 (1 + d/y) less 3.
+        // u = y + b over the wall y = 0: at the depth d it is b − d. The normal component 3 vanishes on the wall: its difference is 3 (1 + d/y).
         for (y, depth) in [(0.5, 0.5), (1.5, 2.5), (0.7, 1.5)] {
             let flat = WallDepth { depth, curvature: 0.0 };
             let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), y, Vec2::y(), flat, 2.0);
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_vortex_around_a_cylinder_is_extrapolated_into_it() {
-        // u = r − R²/r around a cylinder at rest, as between two that turn: y − y²/2R to the second order, twice over.
+        // u = r − R²/r around a cylinder at rest, as in Couette flow between cylinders: 2 (y − y²/2R) to second order.
         const RADIUS: f64 = 20.0;
         let wall = NoSlip { spacing: 1.0, largest_stretch: 100.0, slip_length: 0.0, line_slip_length: 0.0 };
         let u = |y: f64| RADIUS + y - RADIUS * RADIUS / (RADIUS + y);

@@ -1,10 +1,10 @@
-//! Fields carried from the fluid into the wall particles: averages over the nearest fluid, then inwards.
+//! Extrapolation of fields from the fluid into the wall particles: Shepard averages over the fluid in reach, then layer by layer inwards.
 
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 
-/// The field of these values of the particles, on walls behind the first `fluids` particles Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid; layers
-/// without fluid in reach copy the average of the layers before them. What no layer reaches keeps its value.
+/// The field of `values`, on the wall particles behind the first `fluids` particles Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid; wall particles
+/// without fluid in reach take the average of those with it. A wall particle with neither keeps its value.
 pub(crate) fn into_walls(
     Neighborhood { pairs, images }: &Neighborhood,
     fluid_volume: &[f64],

@@ -1,4 +1,5 @@
-//! Fills both sides of an interface that no lattice fits: a layer of particles on either side of it, and as many in each phase as it has room for.
+//! Fills both sides of an interface that is not aligned with the lattice: one layer of particles on each side of it, and the number of particles
+//! in each phase given by its area.
 
 use super::kept::{CLOSEST, EQUAL, SAMPLING, apart, deepest};
 use super::lattice::{Lattice, each_with};
@@ -9,7 +10,7 @@ use crate::geometry::{Geometry, Wall};
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::Domain;
 
-/// Lattice points farther from the interface than this, in spacings, are all kept.
+/// Lattice points farther from the interface than this, in spacings, are always kept.
 const DOUBTFUL: f64 = 3.0;
 
 /// The initial interface between two phases in a pore.
@@ -20,7 +21,7 @@ pub(crate) struct Interface<'a> {
 }
 
 impl<'a> Interface<'a> {
-    /// The interface around a `region` that is filled in a `pore`.
+    /// The interface around a `region` filled with one phase in a `pore`.
     pub(crate) fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
         let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
@@ -33,10 +34,10 @@ impl<'a> Interface<'a> {
         &self.surface
     }
 
-    /// Makes room in `places` for layers beside the interface, and returns these: particles half a spacing from it on both sides, evenly along it.
-    /// As many other fluid particles are left on each side as its area has room for beside its layer, those farthest from the interface.
+    /// Makes room in `places` for layers beside the interface, and returns these: particles half a spacing from it on both sides, evenly spaced along
+    /// it. Of the other fluid particles on each side those farthest from the interface are kept, as many as the area allows besides the layer.
     ///
-    /// Nothing is changed, and there are no layers, where the lattice fits the interface, and where a phase is too small for one.
+    /// Where the interface is aligned with the lattice, or a phase is too small for a layer, `places` is unchanged and there are no layers.
     pub(crate) fn make_room(&self, lattice: &Lattice, domain: &Domain, places: &mut Places) -> Vec<Vec2> {
         if self.surface.is_empty() {
             return Vec::new();
@@ -67,7 +68,7 @@ impl<'a> Interface<'a> {
     /// The particles at `depth` (m) within the region.
     fn layer(&self, depth: f64, lattice: &Lattice, domain: &Domain) -> Vec<Vec2> {
         let spacing = lattice.volume().sqrt();
-        // A line that meets a wall ends where its last particle, half a spacing along the line from its end, has half a spacing of room.
+        // A layer that meets a wall ends where its last particle, half a spacing along the layer from its end, is half a spacing from the wall.
         let is_in_pore = |x: Vec2| {
             let has_room = || {
                 let wall = self.pore.wall(x);
@@ -82,9 +83,9 @@ impl<'a> Interface<'a> {
         apart(&points, domain, CLOSEST * spacing).into_iter().map(|a| points[a]).collect()
     }
 
-    /// The part of the pore in m² that the region takes.
+    /// Area in m² of the region within the pore.
     fn area(&self, lattice: &Lattice) -> f64 {
-        /// Parts of a cell along each side, where it is cut.
+        /// Subdivisions of a cut cell along each side.
         const PARTS: usize = 4;
         let share = |x: Vec2| {
             let distances = [self.region.signed_distance(x), self.pore.signed_distance(x)];
@@ -102,11 +103,11 @@ impl<'a> Interface<'a> {
     }
 }
 
-/// Whether a point of a region's outline is interface: not deep in a wall or out of the box, and no side of the region that lies along one of
-/// these, as those of a rectangle from wall to wall.
+/// Whether a point of the outline of a region is on the interface: not deep in a wall or outside the box, and not on a part of the outline along
+/// a wall or a side of the box, as for a rectangle that spans from wall to wall.
 fn is_interface(closest: Vec2, normal: Vec2, pore: &Geometry, spacing: f64) -> bool {
     let lies_along = |distance: f64, wall: Vec2| {
-        /// Cosine of the angle between two surfaces that are taken for one.
+        /// Cosine of the angle between two surfaces that count as parallel.
         const ALONG: f64 = 0.99;
         distance < -spacing || (distance.abs() < 0.5 * spacing && normal.dot(&wall).abs() > ALONG)
     };
@@ -121,8 +122,8 @@ fn is_interface(closest: Vec2, normal: Vec2, pore: &Geometry, spacing: f64) -> b
     !lies_along(wall.distance, wall.normal) && !sides.iter().any(|(distance, normal)| lies_along(*distance, *normal))
 }
 
-/// The share of a cell of `size` (m) on the positive side of a surface, as seen from its middle, which is straight within it: exact where the surface lies along an
-/// axis or halves the cell.
+/// Fraction of a cell of `size` (m) on the positive side of a surface, straight within the cell; `wall` is the surface's distance and normal at
+/// the center of the cell. Exact where the surface is parallel to an axis or halves the cell.
 fn above(wall: Wall, size: Vec2) -> f64 {
     let width = wall.normal.abs().dot(&size);
     if width > 0.0 { (0.5 + wall.distance / width).clamp(0.0, 1.0) } else { f64::from(wall.distance > 0.0) }

@@ -6,17 +6,17 @@ use crate::math::{Bounds, Vec2};
 use crate::sph::fill::places::Places;
 use crate::sph::kernel::WendlandC2;
 
-/// A square lattice that fits the box: a whole number of cells along each side, a particle in the middle of each.
+/// A square lattice commensurate with the box: an integer number of cells along each side, a particle in the center of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lattice {
     bounds: Bounds,
     counts: [usize; 2],
-    /// Distance of neighboring particles along x and y in m.
+    /// Spacing of neighboring particles along x and y in m.
     pub step: Vec2,
 }
 
 impl Lattice {
-    /// The lattice nearest to `spacing` (m) that fits `bounds`.
+    /// The lattice with the spacing closest to `spacing` (m) that is commensurate with `bounds`.
     pub fn fitting(bounds: Bounds, spacing: f64) -> Self {
         let size = bounds.size();
         let counts = [0, 1].map(|i| (size[i] / spacing).round().max(1.0) as usize);
@@ -24,12 +24,12 @@ impl Lattice {
         Self { bounds, counts, step }
     }
 
-    /// V_0 = dx² in m²: the cell of a particle.
+    /// V_0 = dx² in m²: area of the cell of a particle.
     pub fn volume(&self) -> f64 {
         self.step.x * self.step.y
     }
 
-    /// The kernel made consistent on this lattice, see [`WendlandC2::divided_by`].
+    /// The kernel normalized on this lattice, see [`WendlandC2::divided_by`].
     pub fn consistent(&self, kernel: WendlandC2) -> WendlandC2 {
         let (unity, twice) = self.neighbors(kernel.support()).fold((0.0, 0.0), |(unity, twice), r| {
             let (w, grad_w) = kernel.w_and_grad(r);
@@ -45,7 +45,7 @@ impl Lattice {
         (-ny..=ny).flat_map(move |j| (-nx..=nx).map(move |i| Vec2::new(i as f64 * step.x, j as f64 * step.y)))
     }
 
-    /// Whether the straight line from `a` to `b` (m) lies along an axis on a border between cells of the lattice.
+    /// Whether the segment from `a` to `b` (m) is parallel to an axis and on a boundary between cells of the lattice.
     pub(crate) fn fits(&self, a: Vec2, b: Vec2) -> bool {
         const ROUNDING: f64 = 1e-6;
         (0..2).any(|i| {
@@ -94,7 +94,7 @@ impl Lattice {
     }
 }
 
-/// The `points` (m) in their order, each with what `find` tells of it; that is found in parallel.
+/// The `points` (m) in their order, each with the value of `find`, computed in parallel.
 pub(super) fn each_with<T: Send>(
     points: impl Iterator<Item = Vec2>,
     find: impl Fn(Vec2) -> T + Sync,
@@ -107,7 +107,7 @@ pub(super) fn each_with<T: Send>(
 /// Fills the domain on the lattice: fluid where the signed distance is above zero, wall particles down to a depth of the
 /// support.
 ///
-/// `signed_distance` in m; `walls` tells which sides (left, right, bottom, top) are walls, so that wall particles stand beyond them.
+/// `signed_distance` in m; `walls`: which sides (left, right, bottom, top) are walls, with wall particles beyond them.
 pub fn on_lattice(
     lattice: &Lattice,
     support: f64,
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn the_sums_of_the_kernel_over_its_lattice_are_their_integrals() {
-        // Cells of 1 by 1.05: a lattice that fits its box.
+        // Cells of 1 by 1.05: a lattice commensurate with its box.
         let bounds = Bounds { min: Vec2::zeros(), max: Vec2::new(20.0, 21.0) };
         let lattice = Lattice { bounds, counts: [20, 20], step: Vec2::new(1.0, 1.05) };
         let plain = WendlandC2::new(1.5);

@@ -1,4 +1,4 @@
-//! Fills the pore and a layer of its walls with particles: on a lattice, and along walls and interfaces that no lattice fits.
+//! Fills the pore and a layer of its walls with particles: on a lattice, and along walls and interfaces that are not aligned with it.
 
 mod interface;
 mod kept;
@@ -15,7 +15,7 @@ pub(crate) use walls::{Room, along_walls};
 
 use crate::sph::domain::Domain;
 
-/// The domain must be this many supports long along a periodic direction, or a pair would be met twice.
+/// The domain must be this many supports long along a periodic direction, or a pair would be counted twice.
 pub(crate) const PERIODIC_SUPPORTS: f64 = 3.0;
 
 /// Whether the periodic directions of `domain` are long enough for `support` (m).

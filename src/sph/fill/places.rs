@@ -1,14 +1,14 @@
-//! Places of fluid and wall particles.
+//! Initial positions of fluid and wall particles.
 
 use crate::math::Vec2;
 use crate::sph::particles::{Particles, Phase};
 
-/// Where particles stand.
+/// Initial positions of the particles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Places {
-    /// Fluid particles in m.
+    /// Positions of fluid particles in m.
     pub fluid: Vec<Vec2>,
-    /// Wall particles in m.
+    /// Positions of wall particles in m.
     pub walls: Vec<Vec2>,
     /// Depth of each wall particle in m.
     pub depth: Vec<f64>,
@@ -20,7 +20,7 @@ impl Places {
         self.depth.push(depth);
     }
 
-    /// The particles at these places; `phase` names the fluid at a point.
+    /// The particles at these positions; `phase` gives the fluid at a point.
     pub(crate) fn particles(&self, phase: impl Fn(Vec2) -> Phase) -> Particles {
         let mut particles = Particles::default();
         self.fluid.iter().for_each(|&x| particles.push(phase(x), x));

@@ -1,12 +1,12 @@
-//! The region that one phase fills at time zero.
+//! The region occupied by one phase at time zero.
 
 use crate::geometry::{Geometry, Wall};
 use crate::math::Vec2;
 
-/// A region within the pore, by the surface that parts it from the other phase.
+/// A region within the pore, given by the surface that separates it from the other phase.
 pub(crate) struct Region {
     surface: Geometry,
-    /// The region with its walls, where the surface alone does not tell which side of it a point lies on.
+    /// The region with its walls, where the surface alone does not determine on which side of it a point lies.
     whole: Option<Geometry>,
     area: Option<f64>,
 }
@@ -17,18 +17,18 @@ impl Region {
         Self { surface: shapes, whole: None, area: None }
     }
 
-    /// The region bounded by walls and interfaces, `whole`, and its interfaces alone, which may reach a little into the solid; its area in m²
-    /// where it is known.
+    /// A region bounded by walls and interfaces, `whole`, and its interfaces alone, which may extend slightly into the solid; `area` in m² where
+    /// it is known.
     pub(crate) fn bounded(whole: Geometry, interfaces: Geometry, area: Option<f64>) -> Self {
         Self { surface: interfaces, whole: Some(whole), area }
     }
 
-    /// Its area within the pore in m², where it is known exactly.
+    /// Area within the pore in m², `None` if it is not known exactly.
     pub(crate) fn area(&self) -> Option<f64> {
         self.area
     }
 
-    /// The surface that parts both phases.
+    /// The surface that separates the phases.
     pub(crate) fn surface(&self) -> &Geometry {
         &self.surface
     }
@@ -38,19 +38,19 @@ impl Region {
         self.whole.as_ref().unwrap_or(&self.surface).signed_distance(x) < 0.0
     }
 
-    /// Signed distance in m to the surface, below 0 in the region; infinite where the nearest part of it is seen through a wall.
+    /// Signed distance in m to the surface, negative in the region; infinite where its nearest part lies behind a wall.
     pub(crate) fn signed_distance(&self, x: Vec2) -> f64 {
-        self.seen(self.surface.signed_distance(x), x)
+        self.unless_behind_wall(self.surface.signed_distance(x), x)
     }
 
     /// Distance and normal of the surface at a point (m), the normal out of the region.
     pub(crate) fn wall(&self, x: Vec2) -> Wall {
         let wall = self.surface.wall(x);
-        let distance = self.seen(wall.distance, x);
+        let distance = self.unless_behind_wall(wall.distance, x);
         if distance.is_finite() { wall } else { Wall { distance, normal: Vec2::zeros(), ..wall } }
     }
 
-    fn seen(&self, distance: f64, x: Vec2) -> f64 {
+    fn unless_behind_wall(&self, distance: f64, x: Vec2) -> f64 {
         match &self.whole {
             Some(_) if self.holds(x) != (distance < 0.0) => f64::INFINITY.copysign(-distance),
             _ => distance,

@@ -1,4 +1,4 @@
-//! Fills the pore along walls that no lattice fits.
+//! Fills the pore along walls that are not aligned with the lattice.
 
 use super::kept::{CLOSEST, EQUAL, SAMPLING, apart, deepest};
 use super::lattice::{Lattice, each_with};
@@ -7,25 +7,25 @@ use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 
-/// Lattice points farther than this from a wall, in spacings, are surely fluid or surely not.
+/// Lattice points farther than this from a wall, in spacings, are certainly fluid or certainly not.
 const DOUBTFUL: f64 = 0.5;
 
-/// Where particles are filled in.
+/// The domain to fill with particles.
 pub(crate) struct Room<'a> {
     /// The lattice.
     pub(crate) lattice: &'a Lattice,
     /// Box and sides.
     pub(crate) domain: &'a Domain,
-    /// Support of the kernel in m: so deep are the walls.
+    /// Support of the kernel in m, the thickness of the walls.
     pub(crate) support: f64,
     /// Whether the left, right, bottom and top side is a wall of particles.
     pub(crate) walls: [bool; 4],
 }
 
-/// Fills the domain with wall particles in layers at half a spacing, one and a half, .. below the walls that no lattice fits, evenly
-/// along each layer, so that each has the volume of the lattice; all else as [`super::on_lattice`] does.
+/// Fills the domain with wall particles in layers at depths of half a spacing, one and a half, ... below the unfitted walls, evenly spaced
+/// along each layer, so that each has the volume of the lattice; all else as in [`super::on_lattice`].
 ///
-/// As many fluid particles as the pore has room for: `pore_area` in m². They stand on the lattice still, to be packed next.
+/// The number of fluid particles follows from `pore_area` (m²). They are still on the lattice, to be packed next.
 pub(crate) fn along_walls(
     room: &Room,
     unfitted: &UnfittedSurface,

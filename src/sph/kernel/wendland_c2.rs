@@ -21,10 +21,10 @@ impl WendlandC2 {
         Self { h, inverse_h: 1.0 / h, norm, gradient_norm: 5.0 * norm / (h * h) }
     }
 
-    /// The same kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
+    /// The kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
     /// the perfect lattice.
     ///
-    /// Both stand for integrals that are 1; at h = 1.5 dx they are 1.0051 and .9974. Divided by them, the volume of Eq. (17) is dx²
+    /// Both approximate integrals that are 1; at h = 1.5 dx they are 1.0051 and .9974. Divided by them, the volume of Eq. (17) is dx²
     /// on the lattice, and gradient, divergence and Laplacian of Eqs. (15) to (31) are exact there for linear (quadratic) fields.
     /// Without this, areas, viscosity and pressure carry errors of half a percent that no refinement removes.
     pub(crate) fn divided_by(self, unity: f64, moment: f64) -> Self {
@@ -63,7 +63,7 @@ impl WendlandC2 {
         (self.norm * wendland_c2(q), -self.gradient_norm * t * t * t)
     }
 
-    /// ∫₀²ʰ W(s) ds in 1/m: what a contact line that stands upright on a wall sums to in Eq. (22).
+    /// ∫₀²ʰ W(s) ds in 1/m: the sum in Eq. (22) for a contact line of an interface perpendicular to the wall.
     pub(crate) fn line_integral(&self) -> f64 {
         // ∫₀² (1 − q/2)⁴ (2q + 1) dq = 2/3.
         self.norm * self.h * 2.0 / 3.0

@@ -1,10 +1,10 @@
-//! Values of a chip: areas, flow rates, energies, momenta and forces of a flow are per meter of depth, as their names say. Between a floor and a lid the same
-//! of all of the depth stands beside each, under the name with the unit of that.
+//! Values of a chip: areas, flow rates, energies, momenta and forces of a flow are per meter of depth, as their names say. Between a floor and
+//! a lid each is also reported for the full depth, under the name with that unit.
 
 use crate::solver::{Measure, Sample};
 use crate::sph::method::Method;
 
-/// Columns of the time series per meter of depth, and those of all of the depth.
+/// Columns of the time series per meter of depth, and those for the full depth.
 const COLUMNS: [(&str, &str); 17] = [
     ("kinetic_energy_J_per_m", "kinetic_energy_J"),
     ("wetting_area_m2", "wetting_volume_m3"),
@@ -25,7 +25,7 @@ const COLUMNS: [(&str, &str); 17] = [
     ("drop_momentum_kg_per_m_s", "drop_momentum_kg_m_per_s"),
 ];
 
-/// The same of measures, with the unit.
+/// Measures per meter of depth, and those for the full depth with their unit.
 const MEASURES: [(&str, &str, &str); 6] = [
     ("inflow-m2-per-s", "inflow-m3-per-s", "m3/s"),
     ("asked-inflow-m2-per-s", "asked-inflow-m3-per-s", "m3/s"),
@@ -35,14 +35,14 @@ const MEASURES: [(&str, &str, &str); 6] = [
     ("net-drag-N-per-m", "net-drag-N", "N"),
 ];
 
-/// A sample of all of the depth for one per meter of depth.
+/// The sample for the full depth of one per meter of depth, `None` in the plane or for other quantities.
 pub(super) fn sample(method: &Method, one: Sample) -> Option<Sample> {
     let depth = method.plates?.depth.distance();
     let (_, name) = COLUMNS.iter().find(|(of_meter, _)| *of_meter == one.name)?;
     Some(Sample { name, value: depth * one.value })
 }
 
-/// A measure of all of the depth for one per meter of depth.
+/// The measure for the full depth of one per meter of depth, `None` in the plane or for other quantities.
 pub(super) fn measure(method: &Method, one: &Measure) -> Option<Measure> {
     let depth = method.plates?.depth.distance();
     let (of_meter, name, unit) = MEASURES.iter().find(|(of_meter, ..)| *of_meter == one.name)?;

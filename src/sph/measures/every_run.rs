@@ -1,4 +1,4 @@
-//! What every run reports: angle, pressures, saturation, lengths and the bookkeeping of areas and densities.
+//! Measures of every run: contact angle, pressures, saturation, lengths, area drift and density errors.
 
 use super::open;
 use super::subject::{Subject, measure};
@@ -18,13 +18,12 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let nearest =
         (0..fluids).map(|a| (s.flow.config.wall)(s.flow.state.particles.position[a]).0).fold(f64::INFINITY, f64::min);
     if nearest.is_finite() {
-        let method = "signed distance of the fluid particle nearest to a wall; below 0: inside of it";
+        let method = "signed distance of the fluid particle nearest to a wall; negative inside the wall";
         found.push(measure("smallest-wall-distance-m", nearest, "m", None, method));
     }
     let distance = smallest_distance(s.flow);
     if distance.is_finite() {
-        let method =
-            "distance of the two nearest fluid particles over dx at the end; particles that pair up come below 0.5";
+        let method = "smallest distance of two fluid particles over dx at the end; below 0.5 for paired particles";
         found.push(measure("smallest-particle-distance-ratio", distance, "", None, method));
     }
     if s.flow.config.method.tension > 0.0 {
@@ -33,7 +32,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     found
 }
 
-/// Distance of the two nearest fluid particles over the spacing.
+/// Smallest distance of two fluid particles over the spacing.
 fn smallest_distance(flow: &Flow) -> f64 {
     let fluids = flow.state.particles.fluids;
     let among_fluids =
@@ -50,9 +49,9 @@ fn flattest_angle(s: &Subject) -> f64 {
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
-    // What came in and left through open sides is no drift.
-    let (passed, seen) = (open::net(s.flow), s.seen.areas);
-    let kept = PhaseAreas { wetting: seen.wetting - passed[0], non_wetting: seen.non_wetting - passed[1] };
+    // Inflow and outflow through open sides are not drift.
+    let (net_inflow, areas) = (open::net(s.flow), s.seen.areas);
+    let kept = PhaseAreas { wetting: areas.wetting - net_inflow[0], non_wetting: areas.non_wetting - net_inflow[1] };
     let drift = kept.drift_since(&s.start);
     let drift = drift.iter().map(|d| d.abs()).filter(|d| d.is_finite()).fold(0.0, f64::max);
     let pressure = &s.seen.capillary_pressure;
@@ -63,7 +62,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             drift,
             "",
             None,
-            "larger relative change of a phase's area since time zero, without what passed through open sides",
+            "larger relative change of the area of a phase since time zero, without the flow through open sides",
         ),
         measure(
             "capillary-pressure-Pa",
@@ -74,7 +73,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
                 s.flow.config.method.tension,
                 s.flow.config.method.kernel.h,
             )),
-            "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface, each taken to the mean height of the interface",
+            "mean pressure of non-wetting minus wetting particles farther than 3h from the interface, referred to the mean height of the interface",
         ),
         measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
         measure(
@@ -91,7 +90,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         s.seen.thin(s.flow).share,
         "",
         None,
-        "particles where their phase is thinner than about three of them, over the particles of the smaller phase",
+        "particles where their phase is thinner than about three particles, over the particles of the smaller phase",
     ));
     found.push(measure(
         "small-pieces",
@@ -106,14 +105,14 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         let angle = s.seen.angle();
         let method = how_the_angle_was_measured(s);
         found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
-        let asked = s
+        let models = s
             .seen
             .contact_lines
             .iter()
             .filter_map(|line| s.flow.config.wall_properties.model(&s.flow.config.method, line.position));
-        let angles: Vec<f64> = asked.map(|model| model.static_angle().to_degrees()).collect();
+        let angles: Vec<f64> = models.map(|model| model.static_angle().to_degrees()).collect();
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-        let method = "mean over the contact lines of the static angle of the wetting model at their places";
+        let method = "mean over the contact lines of the static angle of the wetting model at their positions";
         found.push(measure("requested-angle-deg", mean, "deg", None, method));
         let method = "slip length of walls near contact lines; with a static angle the speed of a line depends on it";
         found.push(measure("line-slip-length-m", s.flow.config.method.no_slip.line_slip_length, "m", None, method));

@@ -1,8 +1,8 @@
-//! What is measured of a flow: in every run, and by the groups that a case asks for.
+//! Measures of a flow: those of every run, and the groups that a case requests.
 //!
-//! Every run has the measures of `every_run`, those of its open sides ([`open`]) and, where its body force acts along each axis in turn, the [`permeability`]; beside a
-//! frozen interface the [`relative`] one.
-//! [`stream`] is the force of the other fluid. The groups are those of `src/benchmarks`, which the solver is given as a list: it knows none of them.
+//! Every run has the measures of `every_run`, those of its open sides ([`open`]) and, where its body force acts along each axis in turn, the
+//! [`permeability`]; with a frozen interface the [`relative`] one. [`stream`] is the force of the other fluid. The groups are those of
+//! `src/benchmarks`, passed to the solver as a list: the solver depends on none of them.
 
 mod chip;
 mod every_run;
@@ -31,18 +31,23 @@ pub(crate) fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
     measures
 }
 
-/// The samples of a row whose values are per meter of depth, of all of the depth; none in the plane.
+/// The samples for the full depth of those values of a row that are per meter of depth; none in the plane.
 pub(crate) fn samples_of_chip(flow: &Flow, row: &[Sample]) -> Vec<Sample> {
     row.iter().filter_map(|one| chip::sample(&flow.config.method, *one)).collect()
 }
 
 /// Further columns of the time series: of open sides, of the permeability where it is measured, and of the groups.
-pub(crate) fn columns(flow: &Flow, seen: &Observation, is_permeability_measured: bool, groups: &[Group]) -> Columns {
+pub(crate) fn columns(
+    flow: &Flow,
+    observed: &Observation,
+    is_permeability_measured: bool,
+    groups: &[Group],
+) -> Columns {
     let mut columns = open::columns(flow);
     if is_permeability_measured {
         columns.extend(permeability::columns(flow));
     }
-    for column in groups.iter().flat_map(|group| (group.columns)(flow, seen)) {
+    for column in groups.iter().flat_map(|group| (group.columns)(flow, observed)) {
         // Two groups may need the same column.
         if columns.iter().all(|(name, _)| *name != column.0) {
             columns.push(column);

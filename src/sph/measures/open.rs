@@ -1,4 +1,4 @@
-//! What runs with open sides report: the balance of what came in, what left and what is inside.
+//! Measures of runs with open sides: mass balance, flow rates, breakthrough and burst pressure.
 
 use super::subject::{Columns, Subject, measure};
 use crate::solver::Measure;
@@ -11,13 +11,13 @@ fn is_open(flow: &Flow) -> bool {
     !flow.config.open.sides.is_empty() || !flow.config.open.through.is_empty()
 }
 
-/// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
+/// Column of the pressure at the side where it rises in steps minus that at the opposite side, in Pa.
 pub(crate) const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
 
-/// Column of the mean pressure at the sides with a given velocity less that given at the others, in Pa.
+/// Column of the mean pressure at the sides with a given velocity minus that given at the others, in Pa.
 pub(crate) const DRIVING_PRESSURE: &str = "driving_pressure_Pa";
 
-/// Column of the area in m² of the phase that comes in that has left through another side: with a pressure that rises in steps, of the phase
+/// Column of the area in m² of the invading phase that has left through another side; with a pressure that rises in steps, of the phase
 /// at that side through the opposite one.
 pub(crate) const PASSED: &str = "passed_m2";
 
@@ -31,7 +31,7 @@ fn is_displacement(flow: &Flow) -> bool {
     flow.config.method.tension > 0.0 && !flow.config.open.sides.is_empty()
 }
 
-/// The phase of which more came in, and the number of the side by which most of it did.
+/// The invading phase, of which more came in, and the number of the side through which most of it did.
 fn entering(flow: &Flow) -> (usize, usize) {
     let fluxes = &flow.state.fluxes;
     let (came, _) = fluxes.totals();
@@ -40,7 +40,7 @@ fn entering(flow: &Flow) -> (usize, usize) {
     (phase, entry)
 }
 
-/// Areas in m² that came in and left since time zero, by phase: particles times their area at rest.
+/// Columns of open sides, among them the areas in m² that came in and left since time zero, by phase: particle counts times V_0.
 pub(crate) fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
         return vec![];
@@ -80,9 +80,9 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
     columns
 }
 
-/// Mean pressure in Pa of what lies within some spacings of the sides where a velocity is given, as far beyond as inside, less that given at the others.
+/// Mean pressure in Pa of the particles within a few spacings on either side of the sides with a given velocity, minus that given at the others.
 fn driving_pressure(flow: &Flow) -> Option<f64> {
-    /// Depth over the distance of rows.
+    /// Half-width of that strip over the row spacing.
     const DEPTH: f64 = 2.0;
     let sides = &flow.config.open.sides;
     let outlet = sides.iter().find_map(OpenSide::given_pressure)?;
@@ -94,7 +94,7 @@ fn driving_pressure(flow: &Flow) -> Option<f64> {
     (count > 0).then(|| sum / count as f64 - outlet)
 }
 
-/// Areas in m² of the wetting and the non-wetting phase that came in less those that left.
+/// Net inflow: areas in m² of the wetting and the non-wetting phase that came in minus those that left.
 pub(crate) fn net(flow: &Flow) -> [f64; 2] {
     let (came, left) = flow.state.fluxes.totals();
     [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.config.method.volume)
@@ -120,7 +120,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             error,
             "",
             None,
-            "mass at time zero and what came in less what left and what is inside, in particles, larger of both phases, over all at \
+            "particles at time zero plus those that came in minus those that left and those inside, larger of both phases, over all at \
              time zero",
         ),
         measure(
@@ -128,7 +128,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             drift,
             "",
             None,
-            "change of the area of both phases less that of what passed through the sides, over the area at time zero",
+            "change of the area of both phases minus the net inflow through the sides, over the area at time zero",
         ),
     ];
     if flow.state.time > 0.0 {
@@ -141,12 +141,12 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     found
 }
 
-/// Area in m² of 20 particles, the smallest drop that is resolved: what leaves before them may be stray particles ahead of the front.
+/// Area in m² of 20 particles, the smallest resolved drop: fewer that leave may be stray particles ahead of the front.
 fn smallest_passage(flow: &Flow) -> f64 {
     SMALLEST_PIECE as f64 * flow.config.method.volume
 }
 
-/// When the phase that comes in left through another side, and its saturation then: in the middle between two records.
+/// Breakthrough time of the invading phase and its saturation then: in the middle between two records.
 fn breakthrough(s: &Subject) -> [Measure; 2] {
     let is_wetting = match rising(s.flow) {
         Some(side) => side.main == Phase::Wetting,
@@ -154,17 +154,17 @@ fn breakthrough(s: &Subject) -> [Measure; 2] {
     };
     let [passed, time, wetting] =
         [PASSED, "time_s", "saturation"].map(|name| s.series.column(name).collect::<Vec<f64>>());
-    // Of the entering phase, as that of a network.
+    // Of the invading phase, as for networks.
     let saturation: Vec<f64> = wetting.iter().map(|s| if is_wetting { *s } else { 1.0 - s }).collect();
-    // At the very start, before much came in, the column can be of the other phase.
+    // At the very start, before much came in, the column can refer to the other phase.
     let before = passed.iter().rposition(|&area| area < smallest_passage(s.flow));
     let interval = before.map(|row| [row, row + 1]).filter(|[_, after]| *after < passed.len());
     let method = match interval {
         Some(_) => {
-            "middle of the interval of records in which the phase that comes in left through another side, 20 particles of it: fewer may be \
+            "middle of the interval between records in which the invading phase left through another side, 20 particles of it: fewer may be \
              stray ones ahead of the front"
         }
-        None => "the phase that comes in has left through no other side by the end",
+        None => "the invading phase has not left through another side by the end",
     };
     let of = |name: &str, values: &[f64], unit: &str| {
         let ends = interval.map(|rows| rows.map(|row| values[row]));
@@ -175,10 +175,10 @@ fn breakthrough(s: &Subject) -> [Measure; 2] {
     [of("breakthrough-time-s", &time, "s"), of("saturation-at-breakthrough", &saturation, "")]
 }
 
-/// The pressure, rising in steps, at which the phase that comes in passes to the opposite side: between the last one at which the menisci rested
-/// and the one at which it did.
+/// The pressure, rising in steps, at which the invading phase reaches the opposite side: between the last one with menisci at rest and the one
+/// at which it arrives.
 fn burst(s: &Subject) -> Option<Measure> {
-    /// Menisci rest where the saturation changes by less than this in the last quarter of a step.
+    /// Menisci are at rest if the saturation changes by less than this in the last quarter of a step.
     const REST: f64 = 1e-3;
     let hold = rising(s.flow)?.steps?.hold;
     let [pressure, passed, time, saturation] =
@@ -197,43 +197,41 @@ fn burst(s: &Subject) -> Option<Measure> {
         bracket.map_or(f64::NAN, |[low, high]| 0.5 * (low + high)),
         "Pa",
         bracket.map(|[low, high]| 0.5 * (high - low)),
-        "middle between the last pressure difference at which the menisci rested and that at which the phase that comes in reached the opposite \
-         side, both within the uncertainty; needs one of either kind",
+        "middle between the last pressure difference with menisci at rest and that at which the invading phase reached the opposite \
+         side, both within the uncertainty; needs one of each",
     ))
 }
 
-/// Rates since time zero beside those that were asked for.
+/// Mean flow rates since time zero and those that were requested.
 fn flow_rates(flow: &Flow) -> Vec<Measure> {
     let (open, fluxes, time) = (&flow.config.open, &flow.state.fluxes, flow.state.time);
     let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
     let through_open_side = |side: &OpenSide| {
-        let asked = side.given_pressure().is_none().then(|| side.flow_rate());
-        // By the ways of the rows: counts of particles come in whole layers.
+        let requested = side.given_pressure().is_none().then(|| side.flow_rate());
+        // Given velocities: by the displacements of the rows, since particle counts change by whole layers.
         let counted =
             || (count(&fluxes.came, side.number) - count(&fluxes.left, side.number)) * flow.config.method.volume;
-        (if asked.is_some() { fluxes.passed[side.number] } else { counted() } / time, asked)
+        (if requested.is_some() { fluxes.passed[side.number] } else { counted() } / time, requested)
     };
     let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
     let rates = open.sides.iter().map(through_open_side).chain(flow.view().given_flows().map(through_period));
-    let (mut came_in, mut asked_in, mut given_in) = (0.0, 0.0, 0.0);
-    for (rate, asked) in rates {
+    let (mut came_in, mut requested_in, mut given_in) = (0.0, 0.0, 0.0);
+    for (rate, requested) in rates {
         came_in += f64::max(rate, 0.0);
-        asked_in += asked.unwrap_or(0.0);
-        given_in += asked.map_or(0.0, |_| rate);
+        requested_in += requested.unwrap_or(0.0);
+        given_in += requested.map_or(0.0, |_| rate);
     }
-    let method = "area that came in, of each side less that which left through it, over the time since time zero";
+    let method = "net inflow of area over the sides with inflow, divided by the time since time zero";
     let mut found = vec![measure("inflow-m2-per-s", came_in, "m2/s", None, method)];
-    if asked_in > 0.0 {
-        let method = "the flow rates inwards that the case gives";
-        found.push(measure("asked-inflow-m2-per-s", asked_in, "m2/s", None, method));
-        let method =
-            "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
-        found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
+    if requested_in > 0.0 {
+        let method = "sum of the inward flow rates given in the case";
+        found.push(measure("asked-inflow-m2-per-s", requested_in, "m2/s", None, method));
+        let method = "inflow through the sides with a given velocity or flow rate, over the requested one";
+        found.push(measure("inflow-ratio", given_in / requested_in, "", None, method));
     }
     for (side, given) in flow.view().given_flows() {
         let drop = given.gradient * flow.config.domain.bounds.size()[side.axis()];
-        let method =
-            "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
+        let method = "largest relative error of the flow rate through the periodic side in a step, from the displacements of all particles";
         found.push(measure("largest-flow-rate-error", given.largest_error, "", None, method));
         let method = "mean pressure gradient that drives the given flow at the end, times the period";
         found.push(measure("driving-pressure-drop-Pa", drop, "Pa", None, method));

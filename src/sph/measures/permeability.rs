@@ -1,4 +1,4 @@
-//! Permeability tensor of a periodic cell from the slow flow under a body force along each axis in turn: u_i = k_ij f_j/μ (Darcy's law).
+//! Permeability tensor of a periodic cell from creeping flow under a body force along each axis in turn: u_i = k_ij f_j/μ (Darcy's law).
 
 use super::subject::{Columns, Subject, measure};
 use crate::math::Vec2;
@@ -6,21 +6,21 @@ use crate::solver::{Measure, Series};
 use crate::sph::flow::Flow;
 use crate::sph::stages::Stages;
 
-/// Off-diagonal entries may differ by this share of the diagonal ones before anyone is told: the particles are no symmetric scheme.
+/// Off-diagonal entries may differ by this fraction of the diagonal ones without a warning: the discretization is not symmetric.
 const ASYMMETRY: f64 = 0.01;
 
-/// Reynolds number of mean velocity and square root of permeability above which a reader must know. Cautious: a turned array at
-/// 1.5 differed from the slow flow by no more than the 2 % that particles on the move do.
+/// Reynolds number of mean velocity and square root of permeability above which a warning is issued. Conservative: a rotated array at
+/// 1.5 differed from creeping flow by no more than 2 %, the effect of particle motion.
 const CREEPING: f64 = 0.5;
 
-/// A flow whose momentum changes by more than this share of the force is not steady.
+/// A flow whose momentum changes at more than this fraction of the force is not steady.
 const STEADY: f64 = 0.01;
 
 const MEANS: [&str; 2] = ["mean_velocity_x_m_per_s", "mean_velocity_y_m_per_s"];
 const AREAS: [&str; 2] = ["wetting_area_m2", "non_wetting_area_m2"];
 const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 
-/// The velocity averaged over the whole cell, solids at rest, in m/s.
+/// Superficial velocity in m/s: averaged over the whole cell, zero in solids.
 pub(crate) fn columns(flow: &Flow) -> Columns {
     let p = &flow.state.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.bulk.volume[a] * p.velocity[a]).sum();
@@ -28,15 +28,15 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
     MEANS.into_iter().zip([mean.x, mean.y]).collect()
 }
 
-/// What the force along one axis does in its stage.
+/// Column of the tensor: response to the force along one axis, in its stage.
 pub(super) struct Column {
     /// Number of the stage.
     pub(crate) stage: usize,
     /// Axis of the force: 0 for x, 1 for y.
     pub(crate) axis: usize,
-    /// Permeabilities in m²: of the velocities along x and y.
+    /// Permeabilities in m² from the velocities along x and y.
     pub(crate) permeability: Vec2,
-    /// Magnitude of the rate of the momentum over the force on the fluid.
+    /// Magnitude of the rate of change of momentum over the force on the fluid.
     pub(crate) unsteady_share: f64,
     /// Reynolds number of mean velocity and square root of permeability.
     pub(crate) reynolds: f64,
@@ -51,7 +51,7 @@ pub(super) fn response(flow: &Flow, stages: &Stages, series: &Series) -> Vec<Col
     };
     let column = |(stage, &axis): (usize, &usize)| {
         let [before, last] = stages.last_rows(series, stage)?;
-        // Per volume.
+        // Force per volume.
         let force = fluid.density * stages.force_of(stage)[axis];
         let mean = read(last, MEANS);
         let fluid_area = read(last, AREAS).sum();
@@ -85,7 +85,7 @@ fn column_measures(column: &Column) -> Vec<Measure> {
         )
     };
     let of_share = format!(
-        "magnitude of the rate of the momentum between the last two records of the force along {force}, over that force on the fluid"
+        "magnitude of the rate of change of momentum between the last two records of the force along {force}, over that force on the fluid"
     );
     if column.axis == 0 {
         vec![
@@ -102,7 +102,7 @@ fn column_measures(column: &Column) -> Vec<Measure> {
     }
 }
 
-/// What a reader must know before trusting the tensor.
+/// Warnings about the validity of the tensor.
 pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     let Some(stages) = s.stages.filter(|_| !s.is_frozen) else { return Vec::new() };
     let columns = response(s.flow, stages, s.series);
@@ -118,7 +118,7 @@ pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     found
 }
 
-/// Whether the `named` flow was not steady.
+/// The warning if the `named` flow was not steady.
 pub(super) fn unsteady(column: &Column, named: &str) -> Option<String> {
     let share = column.unsteady_share;
     (share > STEADY).then(|| {
@@ -129,7 +129,7 @@ pub(super) fn unsteady(column: &Column, named: &str) -> Option<String> {
     })
 }
 
-/// Whether the `named` flow is too fast.
+/// The warning if the `named` flow is too fast.
 pub(super) fn inertial(column: &Column, named: &str) -> Option<String> {
     let reynolds = column.reynolds;
     (reynolds > CREEPING).then(|| {
@@ -140,7 +140,7 @@ pub(super) fn inertial(column: &Column, named: &str) -> Option<String> {
     })
 }
 
-/// The tensor of a slow flow is symmetric (the reciprocal theorem of Lorentz).
+/// The warning if the tensor is not symmetric, as that of creeping flow is (Lorentz reciprocal theorem).
 fn asymmetric(x: &Column, y: &Column) -> Option<String> {
     let (xy, yx) = (y.permeability.x, x.permeability.y);
     let diagonal = 0.5 * (x.permeability.x + y.permeability.y);
@@ -164,8 +164,8 @@ mod tests {
 
     #[test]
     fn off_diagonals_may_differ_by_what_the_flows_had_left_to_change() {
-        let told = |share: f64| asymmetric(&column(0, [3.0, 1.0], share), &column(1, [1.1, 2.0], share)).is_some();
-        assert!(told(0.0) && !told(0.05));
+        let warned = |share: f64| asymmetric(&column(0, [3.0, 1.0], share), &column(1, [1.1, 2.0], share)).is_some();
+        assert!(warned(0.0) && !warned(0.05));
         assert!(asymmetric(&column(0, [3.0, 1.0], 0.0), &column(1, [1.01, 2.0], 0.0)).is_none());
     }
 

@@ -1,5 +1,5 @@
-//! Relative permeability of each phase beside a frozen interface: the permeability of the phase alone, with the other one as a part of the solid, over
-//! that of the whole pore.
+//! Relative permeability of each phase with a frozen interface: the permeability to the phase alone, with the other phase as part of the solid,
+//! over that of the whole pore.
 
 use super::permeability::{Column, inertial, response, unsteady};
 use super::subject::{Subject, measure};
@@ -22,7 +22,8 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
         )
     };
     let share = columns.iter().map(|column| column.unsteady_share).fold(0.0, f64::max);
-    let of_share = "largest rate of the momentum between the last two records of a flow, over the force on its fluid";
+    let of_share =
+        "largest rate of change of momentum between the last two records of a flow, over the force on its fluid";
     let of_saturation = "area of the wetting phase over that of both at time zero";
     vec![
         measure("permeability-m2", k, "m2", None, &of_whole),
@@ -33,16 +34,16 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     ]
 }
 
-/// What a reader must know before trusting them.
+/// Warnings about the validity of the measures.
 pub(crate) fn warnings(s: &Subject) -> Vec<String> {
-    let told = |column: &Column| {
+    let of_column = |column: &Column| {
         let named = format!("the flow {}", FLOWS[column.stage]);
         [unsteady(column, &named), inertial(column, &named)]
     };
-    columns(s).iter().flat_map(told).flatten().collect()
+    columns(s).iter().flat_map(of_column).flatten().collect()
 }
 
-/// The response of each flow that has come to its end.
+/// The response of each finished flow.
 fn columns(s: &Subject) -> Vec<Column> {
     s.stages.filter(|_| s.is_frozen).map(|stages| response(s.flow, stages, s.series)).unwrap_or_default()
 }

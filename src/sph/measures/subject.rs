@@ -1,4 +1,4 @@
-//! What measures look at, and the groups of them that a case can ask for.
+//! Input of the measures, and the groups of measures that a case can request.
 
 use crate::analysis::phases::PhaseAreas;
 use crate::math::{Bounds, Vec2};
@@ -7,7 +7,7 @@ use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 use crate::sph::stages::Stages;
 
-/// A disc of the geometry, for measures that compare with closed forms.
+/// A disc of the geometry, for comparison with closed-form solutions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiscOf {
     /// Center in m.
@@ -16,11 +16,11 @@ pub struct DiscOf {
     pub radius: f64,
 }
 
-/// What a measure may look at.
+/// Input of a measure.
 pub struct Subject<'a> {
     /// The flow at its end.
     pub flow: &'a Flow,
-    /// What is seen of it.
+    /// Interface, contact lines and phases observed in it.
     pub seen: &'a Observation,
     /// Areas of the phases at time zero.
     pub start: PhaseAreas,
@@ -28,27 +28,27 @@ pub struct Subject<'a> {
     pub series: &'a Series,
     /// The discs of the geometry.
     pub discs: &'a [DiscOf],
-    /// The upright rectangles of the geometry.
+    /// The axis-aligned rectangles of the geometry.
     pub plates: &'a [Bounds],
     /// Speeds of the walls at the left, right, bottom and top side in m/s.
     pub wall_speeds: [f64; 4],
     /// The body forces, where they act one after the other.
     pub stages: Option<&'a Stages>,
-    /// Whether they act on the flows beside a frozen interface.
+    /// Whether they act on the flows with a frozen interface.
     pub is_frozen: bool,
 }
 
 /// Columns of the time series: name and value.
 pub type Columns = Vec<(&'static str, f64)>;
 
-/// What a case can ask for beside what every run measures: a benchmark, most often.
+/// Measures that a case can request in addition to those of every run, usually a benchmark.
 #[derive(Clone, Copy)]
 pub struct Group {
     /// Further columns of the time series, always the same in the same order.
     pub columns: fn(&Flow, &Observation) -> Columns,
     /// Measures at the end, from the flow, the time series or both.
     pub measures: fn(&Subject) -> Vec<Measure>,
-    /// What a reader must know before trusting the measures.
+    /// Warnings about the validity of the measures.
     pub warnings: fn(&Subject) -> Vec<String>,
 }
 
@@ -59,7 +59,7 @@ impl Group {
     }
 }
 
-/// A measure: its value and standard `uncertainty` in `unit`, and in one sentence the `method`.
+/// A measure: value and standard `uncertainty` in `unit`, and a sentence on the `method`.
 pub fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method: &str) -> Measure {
     Measure { uncertainty, ..solver::measure(name, value, unit, method) }
 }

@@ -1,5 +1,5 @@
-//! What passed through the sides, in particles: a particle's mass never changes, so counting them is exact. At sides with a given velocity also by
-//! the ways of the rows in their buffers, since counts come in whole layers.
+//! Fluxes through the sides as particle counts: the mass of a particle is constant, so counting is exact. At sides with a given velocity also
+//! from the displacements of the rows in their buffers, since counts change by whole layers.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,13 +8,13 @@ use crate::sph::particles::Phase;
 /// Counts of particles by side (left, right, bottom, top) and phase (wetting, non-wetting).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryFluxes {
-    /// Came in.
+    /// Particles that came in.
     pub came: [[u64; 2]; 4],
-    /// Left.
+    /// Particles that left.
     pub left: [[u64; 2]; 4],
-    /// Area in m² that came in through each side with a given velocity, by the ways of the particles in its buffer.
+    /// Area in m² that came in through each side with a given velocity, from the displacements of the particles in its buffer.
     pub passed: [f64; 4],
-    /// The name of the next particle.
+    /// Identifier of the next particle.
     pub next_id: u32,
     /// Fluid particles at time zero, by phase.
     pub at_start: [u64; 2],
@@ -25,37 +25,37 @@ fn index(phase: Phase) -> usize {
 }
 
 impl BoundaryFluxes {
-    /// The ledger at time zero.
+    /// The counts at time zero.
     pub(crate) fn new(phases: &[Phase], next_id: u32) -> Self {
         let mut fluxes = Self { next_id, ..Self::default() };
         fluxes.at_start = Self::count(phases);
         fluxes
     }
 
-    /// Particles of each phase.
+    /// Number of particles of each phase.
     pub fn count(phases: &[Phase]) -> [u64; 2] {
         let mut counts = [0; 2];
         phases.iter().for_each(|&phase| counts[index(phase)] += 1);
         counts
     }
 
-    /// Notes a particle that came in through `side`.
+    /// Counts a particle that came in through `side`.
     pub(crate) fn comes(&mut self, side: usize, phase: Phase) {
         self.came[side][index(phase)] += 1;
     }
 
-    /// Notes a particle that left through `side`.
+    /// Counts a particle that left through `side`.
     pub(crate) fn leaves(&mut self, side: usize, phase: Phase) {
         self.left[side][index(phase)] += 1;
     }
 
-    /// Particles of each phase that came in and that left, over all sides.
+    /// Numbers of particles of each phase that came in and that left, over all sides.
     pub fn totals(&self) -> ([u64; 2], [u64; 2]) {
         let sum = |counts: &[[u64; 2]; 4]| [0, 1].map(|phase| counts.iter().map(|side| side[phase]).sum());
         (sum(&self.came), sum(&self.left))
     }
 
-    /// Names a new particle.
+    /// The identifier of a new particle.
     pub(crate) fn name(&mut self) -> u32 {
         let id = self.next_id;
         self.next_id = self.next_id.wrapping_add(1);

@@ -1,24 +1,24 @@
-//! The buffers beyond open sides: how they are filled, and how particles pass between them and the fluid.
+//! Buffers beyond open sides: initial filling, and the exchange of particles with the fluid.
 
 use crate::math::{Bounds, Vec2};
 use crate::sph::open::boundary_fluxes::BoundaryFluxes;
 use crate::sph::open::side::OpenSide;
 use crate::sph::particles::{Particles, Phase};
 
-/// A new particle needs so much room, in units of dx: less would crowd a file that came back in after a single move outwards.
+/// Minimum distance of a new particle from others, in units of dx: otherwise a row that moved outwards and back would become overcrowded.
 const ROOM: f64 = 0.5;
 
-/// What stands around the buffers at time zero.
+/// Surroundings of the buffers at time zero.
 pub(crate) struct Around<'a> {
     /// The box.
     pub(crate) bounds: Bounds,
-    /// Distance of neighboring lattice points in m.
+    /// Spacing of the lattice along x and y in m.
     pub(crate) step: Vec2,
     /// Depth of wall layers in m.
     pub(crate) support: f64,
     /// Sides that are walls: left, right, bottom, top.
     pub(crate) walls: [bool; 4],
-    /// Signed distance in m; beyond open sides that of the place on the side.
+    /// Signed distance in m; beyond open sides that of the nearest point on the side.
     pub(crate) signed_distance: &'a dyn Fn(Vec2) -> f64,
     /// Phase of a fluid particle.
     pub(crate) phase: &'a dyn Fn(Vec2) -> Phase,
@@ -26,18 +26,18 @@ pub(crate) struct Around<'a> {
 
 /// A row of particles along the normal of a side.
 struct Row {
-    /// Its coordinate along the side in m.
+    /// Coordinate along the side in m.
     y: f64,
-    /// Distance of its particles in m.
+    /// Spacing of its particles in m.
     step: f64,
-    /// Their number.
+    /// Number of particles.
     count: usize,
     /// Whether it lies in an opening.
     is_open: bool,
 }
 
-/// The rows of a side from its lower end: equal ones fill each opening and each solid between two of them; solids at the ends of the side go on as far as
-/// `around` says.
+/// The rows of a side from its lower end: rows of equal width fill each opening and each solid between two of them; solids at the ends of the
+/// side extend as far as `around` requires.
 fn rows(side: &OpenSide, around: &Around) -> Vec<Row> {
     let (along, axis) = (1 - side.axis(), side.axis());
     let (min, max, spacing) = (around.bounds.min[along], around.bounds.max[along], around.step[along]);
@@ -46,7 +46,7 @@ fn rows(side: &OpenSide, around: &Around) -> Vec<Row> {
     let equal = |from: f64, to: f64, count: usize| {
         (0..count).map(move |j| from + (to - from) * (j as f64 + 0.5) / count as f64)
     };
-    // Walls at the ends of the side go on as well; beyond mirrors and periodic sides stand copies.
+    // Walls at the ends of the side are extended as well; beyond mirrors and periodic sides there are copies.
     let end = |number: usize, edge: f64, outer: f64| {
         let length = (outer - edge).abs();
         let (length, count) = if around.walls[2 * along + number] {
@@ -73,7 +73,7 @@ fn rows(side: &OpenSide, around: &Around) -> Vec<Row> {
     rows
 }
 
-/// Fills the buffers, and carries the walls on beyond the open sides; `wall_depth` in m gets the depths of the new wall particles.
+/// Fills the buffers, and extends the walls beyond the open sides; appends the depths of the new wall particles to `wall_depth` (m).
 pub(crate) fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: &[OpenSide], around: &Around) {
     let (fluids, before) = (particles.fluids, particles.len());
     let (mut buffer, mut walls) = (Vec::new(), Vec::new());
@@ -102,7 +102,7 @@ pub(crate) fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: 
     particles.arrange(&order, fluids, buffer.len());
 }
 
-/// Notes the area that came in through sides with a given velocity, as the particles of their buffers moved from the places `from` (m).
+/// Adds the area that came in through sides with a given velocity while the particles of their buffers moved from the positions `from` (m).
 pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes) {
     for b in particles.buffer() {
         let Some(side) = sides.iter().find(|side| side.beyond(from[b]) >= 0.0) else { continue };
@@ -113,7 +113,7 @@ pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSid
     }
 }
 
-/// Lets the particles that crossed an open side change from fluid to buffer or back; `spacing` in m.
+/// Turns particles that crossed an open side from fluid into buffer particles or back; `spacing` in m.
 pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes, spacing: f64) {
     let (mut fluid, mut buffer, mut entered) = (Vec::new(), Vec::new(), Vec::new());
     for a in 0..particles.fluids {
@@ -149,7 +149,7 @@ pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &m
             particles.append_like(b, side.enters.unwrap_or(particles.phase[b]), end, fluxes.name());
         }
     }
-    // New particles stand behind the walls until they are put in their place.
+    // New particles come after the walls in memory until `arrange`.
     let walls = particles.moving()..particles.moving() + particles.walls;
     let order: Vec<usize> = fluid.iter().chain(&buffer).copied().chain(walls).collect();
     particles.arrange(&order, fluid.len(), buffer.len());

@@ -1,4 +1,4 @@
-//! Fields of the fluid carried beyond an open side along its normal: value by moving least squares at an interior point within the fluid.
+//! Extrapolation of fluid fields beyond an open side along its normal: moving least squares at an interior point within the fluid.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -9,13 +9,13 @@ use crate::sph::kernel::WendlandC2;
 use crate::sph::open::side::OpenSide;
 use crate::sph::particles::Particles;
 
-/// How far inside of the side the interior points lie, over h: there the stencil of the fit has fluid on both sides.
+/// Distance of the interior points from the side, over h: there the stencil of the fit has fluid on both sides.
 const INSET: f64 = 1.0;
 
-/// Weights whose sizes sum to more than this would blow the noise of single particles up: the fit is not to be trusted.
+/// Weights whose magnitudes sum to more than this would amplify the noise of single particles: the fit is rejected.
 const LARGEST_SUM: f64 = 2.5;
 
-/// For each buffer particle of a pressure side the fluid particles around its interior point, with weights that sum to one.
+/// For each buffer particle at a side with a given pressure the fluid particles around its interior point, with weights that sum to one.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct InteriorPoints {
     start: Vec<usize>,
@@ -51,20 +51,20 @@ impl InteriorPoints {
         interior
     }
 
-    /// The value of `field` at the interior point of the `i`-th buffer particle; none without fluid around it.
+    /// The value of `field` at the interior point of the `i`-th buffer particle; `None` without fluid around it.
     pub(crate) fn value(&self, i: usize, field: &[Vec2]) -> Option<Vec2> {
         let terms = &self.terms[self.start[i]..self.start[i + 1]];
         (!terms.is_empty()).then(|| terms.iter().map(|&(a, w)| w * field[a as usize]).sum())
     }
 
-    /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
-    /// given pressure the normal part of that at the interior point, so that it goes on along the normal.
+    /// Sets the velocities of buffer particles in `velocity` (m/s): the given one at inlets; at sides with a given pressure the normal
+    /// component at the interior point, so that it is constant along the normal.
     pub(crate) fn set_buffer_velocity(&self, particles: &Particles, sides: &[OpenSide], velocity: &mut [Vec2]) {
         self.set_buffers(particles, sides, velocity, OpenSide::given_velocity);
     }
 
-    /// Sets the accelerations of buffer particles from those of the fluid in `acceleration` (m/s²), as their velocities follow: none where
-    /// the velocity is given.
+    /// Sets the accelerations of buffer particles in `acceleration` (m/s²) consistently with [`Self::set_buffer_velocity`]: zero where the
+    /// velocity is given.
     pub(crate) fn set_buffer_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
         self.set_buffers(particles, sides, acceleration, |side, x| side.given_velocity(x).map(|_| Vec2::zeros()));
     }
@@ -87,9 +87,9 @@ impl InteriorPoints {
     }
 }
 
-/// Weights that give fields exactly that are linear along the normal and quadratic along the side: a plain or linear average would
-/// flatten a parabola, and the pressure would have to make up for the lost flow. Where the particles around do not allow that,
-/// linear ones, then those of the plain average. `r` from the interior point over h.
+/// Weights exact for fields that are linear along the normal and quadratic along the side: a plain average or linear fit would
+/// flatten a parabola, and the pressure would have to compensate for the lost flow. Where the particles do not determine this fit,
+/// the weights of a linear fit, then of the plain average. `r` is relative to the interior point, over h.
 fn weights(near: &[(u32, f64, Vec2)], along: usize) -> Vec<(u32, f64)> {
     let sum: f64 = near.iter().map(|n| n.1).sum();
     let quadratic = |r: Vec2| Vector4::new(1.0, r[0], r[1], r[along] * r[along]);
@@ -106,7 +106,7 @@ fn fitted(near: &[(u32, f64, Vec2)], sum: f64, basis: impl Fn(Vec2) -> Vector4<f
         let row = basis(r);
         moments += w / sum * row * row.transpose();
     }
-    // A function left out has no moments.
+    // A basis function that is zero has no moments.
     for i in 1..4 {
         if moments[(i, i)] == 0.0 {
             moments[(i, i)] = 1.0;

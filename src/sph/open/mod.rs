@@ -1,8 +1,8 @@
-//! Open sides: fluid comes in and leaves, at a given velocity or a given pressure.
+//! Open sides: fluid enters and leaves at a given velocity or a given pressure.
 //!
-//! Beyond an open side stands a *buffer*: particles that count as fluid in every sum, and whose velocity (at inlets) or
-//! pressure (elsewhere) is given. A buffer particle that crosses inwards becomes fluid and a new one is made at the far end of
-//! its row; fluid that crosses outwards becomes buffer, and beyond the far end it goes (method: Tafuni et al. 2018; for the
+//! Beyond an open side is a *buffer*: particles that count as fluid in every sum, and whose velocity (at inlets) or
+//! pressure (elsewhere) is given. A buffer particle that crosses inwards becomes fluid, and a new one is created at the far end of
+//! its row; fluid that crosses outwards becomes buffer, and is removed beyond the far end (method: Tafuni et al. 2018; for the
 //! pressure equation Hirschler et al. 2016).
 
 mod boundary_fluxes;
@@ -21,7 +21,7 @@ pub(crate) use profile::{Opening, Profile, Shape, openings};
 pub(crate) use side::{DEPTH, Drive, OpenSide, Staircase};
 pub(crate) use through::{GivenFlow, Moved};
 
-/// The sides of a run that fluid comes in or leaves through.
+/// The sides through which fluid enters or leaves.
 #[derive(Debug, Clone, Default)]
 pub struct Open {
     /// Inlets and outlets.

@@ -1,15 +1,15 @@
 //! The pressures of buffer particles at sides with a given pressure.
 //!
-//! The given value holds at the side. Beyond it the pressure goes on with the slope that it had inside of the side in the
-//! step before, in each phase on its own: with one value for the whole buffer the slope at the side would be lost.
+//! The given value applies at the side. Beyond it the pressure is extrapolated with the gradient inside the side in the previous
+//! step, separately in each phase: one value for the whole buffer would make the gradient vanish at the side.
 
 use crate::sph::open::side::{Drive, OpenSide};
 use crate::sph::particles::{Particles, Phase};
 
-/// Width of the strip inside of a side from which slopes are taken, over h.
+/// Width of the strip inside a side from which gradients are taken, over h.
 const STRIP: f64 = 2.0;
 
-/// Fewest particles of a phase in the strip for a slope.
+/// Minimum number of particles of a phase in the strip for a gradient.
 const FEWEST: usize = 5;
 
 /// The given pressures of one step.
@@ -17,12 +17,12 @@ const FEWEST: usize = 5;
 pub(crate) struct Prescribed {
     /// Pressure in Pa of each buffer particle, NaN where none is given.
     pub(crate) value: Vec<f64>,
-    /// What all pressures are solved relative to in Pa: the mean over the sides.
+    /// Reference pressure of the solve in Pa: the mean over the sides.
     pub(crate) reference: f64,
 }
 
 impl Prescribed {
-    /// The pressures for the step to come. `jump` is σκ in Pa at each buffer particle, NaN away from the interface.
+    /// The pressures of the next step. `jump` is σκ in Pa at each buffer particle, NaN away from the interface.
     pub(crate) fn new(particles: &Particles, sides: &[OpenSide], jump: impl Fn(usize) -> f64, h: f64) -> Self {
         let mut value = vec![f64::NAN; particles.open];
         let (mut sum, mut count) = (0.0, 0.0);
@@ -58,7 +58,7 @@ impl Prescribed {
         Self { value, reference: if count > 0.0 { sum / count } else { 0.0 } }
     }
 
-    /// The given pressure in Pa of particle `a`, where there is one; `fluids` fluid particles come before the buffer.
+    /// The given pressure in Pa of particle `a`, `None` if there is none; `fluids` fluid particles precede the buffer.
     #[inline]
     pub(crate) fn of(&self, a: usize, fluids: usize) -> Option<f64> {
         let value = *self.value.get(a.checked_sub(fluids)?)?;

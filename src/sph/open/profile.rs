@@ -1,6 +1,6 @@
-//! Velocity profiles over the openings that solids leave of a side.
+//! Velocity profiles over the openings between the solids on a side.
 
-/// A piece of a side between solids, along the side in m.
+/// An interval of a side between solids, along the side in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Opening {
     /// Lower end in m.
@@ -15,7 +15,7 @@ impl Opening {
         self.to - self.from
     }
 
-    /// How many rows of about `spacing` (m) it has room for.
+    /// Number of rows of about `spacing` (m) that fit.
     pub fn rows(&self, spacing: f64) -> usize {
         (self.width() / spacing).round() as usize
     }
@@ -33,7 +33,7 @@ pub enum Shape {
     Plug,
     /// A parabola that vanishes at both ends of the opening.
     Parabola,
-    /// Half a parabola, with its top on a mirror at the lower or the upper end.
+    /// Half a parabola, with its maximum on a mirror at the lower or the upper end.
     HalfParabola {
         /// Whether the mirror is at the upper end.
         mirror_above: bool,
@@ -41,7 +41,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The velocity over its mean at the share `s` of the way through the opening.
+    /// The velocity over its mean at the fraction `s` of the width of the opening.
     fn at(self, s: f64) -> f64 {
         match self {
             Self::Plug => 1.0,
@@ -51,7 +51,7 @@ impl Shape {
         }
     }
 
-    /// The share of the flow up to there, ∫ of [`Self::at`] from 0 to `s`.
+    /// Fraction of the flow up to `s`: ∫ of [`Self::at`] from 0 to `s`.
     fn below(self, s: f64) -> f64 {
         match self {
             Self::Plug => s,
@@ -62,7 +62,7 @@ impl Shape {
     }
 }
 
-/// Velocity inwards along a side.
+/// Profile of the inward velocity along a side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
     /// Mean velocity over the openings in m/s.
@@ -72,12 +72,12 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Velocity inwards in m/s at the coordinate `y` (m) in an `opening`.
+    /// Inward velocity in m/s at the coordinate `y` (m) in an `opening`.
     pub(crate) fn at(&self, opening: &Opening, y: f64) -> f64 {
         self.mean * self.shape.at((y - opening.from) / opening.width())
     }
 
-    /// The mean in m/s over the row around `y` (m), if `rows` equal ones fill the `opening`: all of them bring the flow of the profile.
+    /// The mean in m/s over the row at `y` (m) of `rows` equal ones that fill the `opening`: together they have the flow rate of the profile.
     pub(crate) fn of_row(&self, opening: &Opening, rows: usize, y: f64) -> f64 {
         let rows = rows.max(1) as f64;
         let row = (rows * (y - opening.from) / opening.width()).floor().clamp(0.0, rows - 1.0);
@@ -85,13 +85,13 @@ impl Profile {
     }
 }
 
-/// Bisections of an end of an opening: to rounding.
+/// Bisections for an end of an opening, enough for machine precision.
 const BISECTIONS: usize = 60;
 
-/// The openings between `from` and `to` (m), where `is_open` holds, looked for at steps of `step` (m).
+/// The openings between `from` and `to` (m), where `is_open` holds, searched in steps of `step` (m).
 pub(crate) fn openings(from: f64, to: f64, step: f64, is_open: impl Fn(f64) -> bool) -> Vec<Opening> {
     let count = ((to - from) / step).ceil().max(1.0) as usize;
-    let place = |i: usize| from + (to - from) * (i as f64 + 0.5) / count as f64;
+    let center = |i: usize| from + (to - from) * (i as f64 + 0.5) / count as f64;
     let edge = |mut closed: f64, mut open: f64| {
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (closed + open);
@@ -102,7 +102,7 @@ pub(crate) fn openings(from: f64, to: f64, step: f64, is_open: impl Fn(f64) -> b
     let mut found: Vec<Opening> = Vec::new();
     let mut last = (from, false);
     for i in 0..count {
-        let (y, open) = (place(i), is_open(place(i)));
+        let (y, open) = (center(i), is_open(center(i)));
         match (last.1, open) {
             (false, true) => {
                 let lower = if i == 0 && is_open(from) { from } else { edge(last.0, y) };
@@ -132,8 +132,8 @@ mod tests {
         let is_open = |y: f64| (0.1..0.3).contains(&y) || y > 0.55;
         let found = openings(0.0, 1.0, 0.02, is_open);
         assert_eq!(found.len(), 2);
-        for (place, wanted) in [(found[0].from, 0.1), (found[0].to, 0.3), (found[1].from, 0.55), (found[1].to, 1.0)] {
-            assert!((place - wanted).abs() < 1e-12, "{place}, wanted {wanted}");
+        for (end, wanted) in [(found[0].from, 0.1), (found[0].to, 0.3), (found[1].from, 0.55), (found[1].to, 1.0)] {
+            assert!((end - wanted).abs() < 1e-12, "{end}, wanted {wanted}");
         }
     }
 

@@ -1,18 +1,18 @@
-//! One open side: where it is, what is given there and what comes in.
+//! An open side: its position, the condition given there and the phase that comes in.
 
 use crate::math::Vec2;
 use crate::sph::open::profile::{Opening, Profile};
 use crate::sph::particles::Phase;
 
-/// Depth of a buffer over h: particles within the support of the fluid have their own whole support within the buffer.
+/// Depth of a buffer over h: its particles within the support of the fluid have a full support themselves.
 pub(crate) const DEPTH: f64 = 4.0;
 
-/// What is given at an open side.
+/// Condition at an open side.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drive {
     /// Pressure in Pa, in the phase that comes in.
     Pressure(f64),
-    /// Velocity inwards.
+    /// Inward velocity.
     Velocity(Profile),
 }
 
@@ -23,21 +23,21 @@ pub struct OpenSide {
     pub number: usize,
     /// Coordinate of the side in m.
     pub at: f64,
-    /// What is given.
+    /// The condition.
     pub drive: Drive,
-    /// The phase that comes in; none: each file of particles goes on with its own.
+    /// The phase that comes in; `None`: each row of particles continues with its own.
     pub enters: Option<Phase>,
-    /// The phase that the given pressure is that of.
+    /// The phase to which the given pressure applies.
     pub main: Phase,
-    /// The openings that solids leave of it, each with room for a row of particles at least.
+    /// The openings between solids, each with room for at least one row of particles.
     pub openings: Vec<Opening>,
-    /// Distance of rows in m that an opening comes nearest to.
+    /// Nominal row spacing in m.
     pub row_spacing: f64,
     /// V_0 in m², the area of a particle.
     pub cell: f64,
-    /// Least depth of the buffer in m.
+    /// Minimum depth of the buffer in m.
     pub depth: f64,
-    /// How the pressure rises.
+    /// Steps in which the pressure rises.
     pub steps: Option<Staircase>,
 }
 
@@ -53,9 +53,9 @@ pub struct Staircase {
 }
 
 impl Staircase {
-    /// The pressure in Pa that begins at `time` (s), or holds then.
+    /// The pressure in Pa from `time` (s) on.
     pub(crate) fn at(&self, time: f64) -> f64 {
-        /// The end of a step is told in whole multiples of its length, up to rounding.
+        /// Tolerance with which a time counts as an integer multiple of `hold`.
         const ROUNDING: f64 = 1e-9;
         self.first + self.rise * (time / self.hold + ROUNDING).floor()
     }
@@ -72,24 +72,24 @@ impl OpenSide {
         self.number / 2
     }
 
-    /// Sign of the direction inwards along the axis.
+    /// Sign of the inward direction along the axis.
     pub(crate) fn inwards(&self) -> f64 {
         if self.number.is_multiple_of(2) { 1.0 } else { -1.0 }
     }
 
-    /// How far `x` lies beyond the side in m; below 0 inside.
+    /// Distance of `x` beyond the side in m; negative inside.
     pub(crate) fn beyond(&self, x: Vec2) -> f64 {
         self.inwards() * (self.at - x[self.axis()])
     }
 
-    /// `x` moved along the normal to a place `beyond` (m) the side.
+    /// `x` projected along the normal to the distance `beyond` (m) beyond the side.
     pub(crate) fn placed(&self, x: Vec2, beyond: f64) -> Vec2 {
         let mut y = x;
         y[self.axis()] = self.at - self.inwards() * beyond;
         y
     }
 
-    /// The velocity of the speed `inwards` in m/s along the normal.
+    /// The velocity along the normal with the inward speed `inwards` in m/s.
     pub(crate) fn velocity(&self, inwards: f64) -> Vec2 {
         let mut v = Vec2::zeros();
         v[self.axis()] = self.inwards() * inwards;
@@ -101,25 +101,25 @@ impl OpenSide {
         self.openings.iter().min_by(|a, b| a.distance(y).total_cmp(&b.distance(y)))
     }
 
-    /// Distance in m of particles in a row of an opening: equal rows fill it, and each particle has its cell.
+    /// Spacing in m of particles along a row of an opening: rows of equal width fill it, and each particle occupies the area `cell`.
     pub(crate) fn step_in(&self, opening: &Opening) -> f64 {
         self.cell * opening.rows(self.row_spacing).max(1) as f64 / opening.width()
     }
 
-    /// Particles in each row of an opening.
+    /// Number of particles in each row of an opening.
     pub(crate) fn count_in(&self, opening: &Opening) -> usize {
-        /// A whole number up to rounding is whole.
+        /// Tolerance with which a number counts as an integer.
         const ROUNDING: f64 = 1e-9;
         (self.depth / self.step_in(opening) - ROUNDING).ceil() as usize
     }
 
-    /// Depth in m of the buffer at `x`: that of whole rows.
+    /// Depth of the buffer in m at `x`: an integer number of particles along the rows there.
     pub(crate) fn depth_at(&self, x: Vec2) -> f64 {
         let of = |opening: &Opening| self.count_in(opening) as f64 * self.step_in(opening);
         self.opening(x[1 - self.axis()]).map_or(self.depth, of)
     }
 
-    /// The given flow rate inwards in m²/s, 0 where a pressure is given.
+    /// The given inward flow rate in m²/s, 0 where a pressure is given.
     pub fn flow_rate(&self) -> f64 {
         match &self.drive {
             Drive::Velocity(profile) => profile.mean * self.openings.iter().map(Opening::width).sum::<f64>(),
@@ -127,22 +127,22 @@ impl OpenSide {
         }
     }
 
-    /// Sets the pressure that holds from `time` (s) on, where it rises in steps.
+    /// Sets the pressure that applies from `time` (s) on, where it rises in steps.
     pub(crate) fn take_step(&mut self, time: f64) {
         if let Some(steps) = self.steps {
             self.drive = Drive::Pressure(steps.at(time));
         }
     }
 
-    /// The given velocity in m/s of the row at `x`, none where a pressure is given.
+    /// The given velocity in m/s of the row at `x`, `None` where a pressure is given.
     pub(crate) fn given_velocity(&self, x: Vec2) -> Option<Vec2> {
         let Drive::Velocity(profile) = &self.drive else { return None };
-        let (y, none) = (x[1 - self.axis()], Some(Vec2::zeros()));
+        let (y, at_rest) = (x[1 - self.axis()], Some(Vec2::zeros()));
         self.opening(y)
-            .map_or(none, |opening| Some(self.velocity(profile.of_row(opening, opening.rows(self.row_spacing), y))))
+            .map_or(at_rest, |opening| Some(self.velocity(profile.of_row(opening, opening.rows(self.row_spacing), y))))
     }
 
-    /// The given pressure in Pa, none where a velocity is given.
+    /// The given pressure in Pa, `None` where a velocity is given.
     pub(crate) fn given_pressure(&self) -> Option<f64> {
         match self.drive {
             Drive::Pressure(pressure) => Some(pressure),

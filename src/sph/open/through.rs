@@ -1,6 +1,6 @@
-//! Periodic sides with a given flow rate: what leaves through the opposite side comes back in, and can change its phase there.
+//! Periodic sides with a given flow rate: fluid that leaves through the opposite side re-enters, and can change its phase there.
 //!
-//! The rate is kept by a mean pressure gradient (`src/sph/projection/given_flow.rs`), which is part of the state here.
+//! A mean pressure gradient maintains the rate (`src/sph/projection/given_flow.rs`); it is part of the state here.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +11,12 @@ use crate::sph::open::profile::Shape;
 use crate::sph::open::side::{Drive, OpenSide};
 use crate::sph::particles::Phase;
 
-/// How the given flow through a periodic side goes on.
+/// State of the given flow through a periodic side.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct GivenFlow {
-    /// The mean pressure gradient that drives it, in Pa/m along the way in.
+    /// The mean pressure gradient that drives it, in Pa/m along the inward direction.
     pub gradient: f64,
-    /// The area in m² that came in since time zero, by the ways of all particles.
+    /// The area in m² that came in since time zero, from the displacements of all particles.
     pub passed: f64,
     /// The rate of the last step in m²/s.
     pub rate: f64,
@@ -24,15 +24,15 @@ pub struct GivenFlow {
     pub largest_error: f64,
 }
 
-/// Particles that move.
+/// Displacement of all particles in a step.
 pub(crate) struct Moved<'a> {
-    /// Where they were, in m.
+    /// Positions before, in m.
     pub(crate) from: &'a [Vec2],
-    /// Where they are, in m.
+    /// Positions after, in m.
     pub(crate) to: &'a [Vec2],
-    /// The area of each in m².
+    /// The area of each particle in m².
     pub(crate) volume: f64,
-    /// How long it took them, in s.
+    /// Duration in s.
     pub(crate) dt: f64,
 }
 
@@ -42,7 +42,7 @@ impl OpenSide {
         self.velocity(1.0)
     }
 
-    /// The velocity in m/s at `x` (m) of the parabola that is given, if one is.
+    /// The velocity in m/s at `x` (m) of the given parabolic profile, `None` without one.
     pub(crate) fn parabola(&self, x: Vec2) -> Option<Vec2> {
         let y = x[1 - self.axis()];
         match &self.drive {
@@ -56,7 +56,7 @@ impl OpenSide {
 }
 
 impl GivenFlow {
-    /// Counts what comes in through `side` as particles move, and changes the phase of those that come through it.
+    /// Counts what comes in through `side` as particles move, and changes the phase of particles that enter through it.
     pub(crate) fn pass(
         &mut self,
         side: &OpenSide,
@@ -65,13 +65,13 @@ impl GivenFlow {
         phase: &mut [Phase],
         fluxes: &mut BoundaryFluxes,
     ) {
-        let (way, period) = (side.way(), domain.bounds.size()[side.axis()]);
-        let mut gone = 0.0;
+        let (inward, period) = (side.way(), domain.bounds.size()[side.axis()]);
+        let mut displacement = 0.0;
         for (a, (&from, &to)) in moved.from.iter().zip(moved.to).enumerate() {
-            gone += domain.separation(to, from).dot(&way);
-            let way_through = side.beyond(to) - side.beyond(from);
-            if way_through.abs() > 0.5 * period {
-                let inwards = way_through > 0.0;
+            displacement += domain.separation(to, from).dot(&inward);
+            let crossing = side.beyond(to) - side.beyond(from);
+            if crossing.abs() > 0.5 * period {
+                let inwards = crossing > 0.0;
                 fluxes.leaves(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
                 if let (true, Some(enters)) = (inwards, side.enters) {
                     phase[a] = enters;
@@ -79,10 +79,10 @@ impl GivenFlow {
                 fluxes.comes(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
             }
         }
-        let passed = moved.volume * gone / period;
-        let asked = side.flow_rate();
+        let passed = moved.volume * displacement / period;
+        let requested = side.flow_rate();
         self.passed += passed;
         self.rate = passed / moved.dt;
-        self.largest_error = self.largest_error.max((self.rate / asked - 1.0).abs());
+        self.largest_error = self.largest_error.max((self.rate / requested - 1.0).abs());
     }
 }

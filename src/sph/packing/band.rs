@@ -1,12 +1,12 @@
-//! Which part of the plane is near to given places, told by square cells.
+//! The part of the plane near given points, as a set of square cells.
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 
-/// Cells across the reach of a band: the finer, the nearer it is to its reach.
+/// Cells per reach of a band: the finer, the less the band exceeds its reach.
 const CELLS_PER_REACH: f64 = 4.0;
 
-/// Square cells near to places, through periodic sides too. Places out of the box belong to the cells at its sides.
+/// Square cells near given points, also across periodic sides. Points outside the box belong to the cells at its sides.
 pub(super) struct Band {
     origin: Vec2,
     size: Vec2,
@@ -16,21 +16,21 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// All that is no farther than `reach` (m) along each axis from one of the `places` (m), and a little more: up to the end of a cell.
-    pub(crate) fn around(places: impl Iterator<Item = Vec2>, reach: f64, domain: &Domain) -> Self {
+    /// All within `reach` (m) along each axis of one of the `points` (m), rounded up to whole cells.
+    pub(crate) fn around(points: impl Iterator<Item = Vec2>, reach: f64, domain: &Domain) -> Self {
         let size = domain.bounds.size();
         let counts = [0, 1].map(|i| (size[i] * CELLS_PER_REACH / reach).floor().max(1.0) as usize);
         let size = Vec2::new(size.x / counts[0] as f64, size.y / counts[1] as f64);
         let inside = vec![false; counts[0] * counts[1]];
         let mut band = Self { origin: domain.bounds.min, size, counts, periodic: domain.periodic, inside };
-        for x in places {
+        for x in points {
             let cell = band.cell(x);
             band.inside[cell] = true;
         }
         band.grown(reach)
     }
 
-    /// The band and all that is no farther than `by` (m) along each axis from it.
+    /// The band and all within `by` (m) along each axis of it.
     pub(crate) fn grown(mut self, by: f64) -> Self {
         for axis in 0..2 {
             let cells = (by / self.size[axis]).ceil() as isize;
@@ -75,11 +75,11 @@ mod tests {
     fn a_band_holds_all_within_its_reach_and_little_more() {
         let bounds = Bounds { min: Vec2::new(-1.0, 0.0), max: Vec2::new(9.0, 10.0) };
         let domain = Domain::new(bounds, [true, false], vec![]);
-        let places = [Vec2::new(-0.9, 5.0), Vec2::new(3.0, 0.1)];
-        let band = Band::around(places.into_iter(), 1.0, &domain);
+        let points = [Vec2::new(-0.9, 5.0), Vec2::new(3.0, 0.1)];
+        let band = Band::around(points.into_iter(), 1.0, &domain);
         for x in (0..10_000).map(|i| bounds.min + 0.1 * Vec2::new(f64::from(i % 100), f64::from(i / 100))) {
-            let far = |place: &Vec2| domain.separation(x, *place).amax();
-            let nearest = places.iter().map(far).fold(f64::INFINITY, f64::min);
+            let far = |point: &Vec2| domain.separation(x, *point).amax();
+            let nearest = points.iter().map(far).fold(f64::INFINITY, f64::min);
             assert!(band.holds(x) || nearest > 1.0, "{x:?} is missing");
             assert!(!band.holds(x) || nearest < 1.51, "{x:?} is too much");
         }

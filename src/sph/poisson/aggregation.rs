@@ -1,13 +1,13 @@
-//! Aggregates for the multigrid: particles of one kind that share a square cell.
+//! Aggregates for the multigrid: particles of the same kind in a square cell.
 
 use rayon::prelude::*;
 
 use crate::math::Vec2;
 
-/// Width of an aggregate over the spacing of the points it is made of.
+/// Width of an aggregate over the spacing of its points.
 pub(crate) const COARSENING: f64 = 3.0;
 
-/// Which aggregate each point belongs to, numbered in the order of the points.
+/// Assignment of points to aggregates.
 #[derive(Debug, Clone)]
 pub(crate) struct Aggregates {
     /// Aggregate of each point.
@@ -21,8 +21,8 @@ pub(crate) struct Aggregates {
 impl Aggregates {
     /// Groups `points` of the same `kind` that lie in the same square of side `width` (m).
     ///
-    /// Points of different kind (light and heavy fluid) are kept apart, since a jump of the coefficient between them
-    /// would slow the cycle down.
+    /// Points of different kind (light and heavy fluid) are kept apart, since a jump of the coefficient within an
+    /// aggregate would slow the convergence of the cycle.
     pub(crate) fn by_cell(points: &[Vec2], kind: &[u8], width: f64) -> Self {
         let mut low = Vec2::repeat(f64::INFINITY);
         let mut high = Vec2::repeat(f64::NEG_INFINITY);

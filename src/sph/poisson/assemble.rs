@@ -11,7 +11,7 @@ use crate::sph::parallel::values;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
-/// The matrix with the coefficients of Eq. (30) times −V_a; images count for their sources [Eq. 34: p' = p].
+/// The matrix with the coefficients of Eq. (30) times −V_a; images are identified with their sources [Eq. 34: p' = p].
 ///
 /// `volume` in m² and `density` in kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
 pub fn assemble(
@@ -39,13 +39,13 @@ pub fn assemble(
     });
     let diagonal = values(pairs.rows(), |a| {
         let sum: f64 = coupling[pairs.row(a)].iter().copied().map(f64::from).sum();
-        // A particle without neighbors has no equation: its pressure stays zero.
+        // A particle without neighbors has no equation: its pressure remains zero.
         if sum > 0.0 { sum } else { 1.0 }
     });
     Matrix { start: Arc::clone(pairs.starts()), column, coupling, diagonal }
 }
 
-/// Numbers the parts of the pore space that share no neighbors that are `joined`; each has a pressure constant of its own.
+/// Numbers the connected components of the pore space, with neighbors connected if `joined`; each has its own pressure constant.
 pub fn parts(pairs: &Pairs, images: &Images, joined: impl Fn(usize, usize) -> bool) -> Vec<u32> {
     let joined = &joined;
     components(pairs.rows(), |a| pairs.of(a).filter(move |ab| joined(a, ab.b)).map(|ab| images.source(ab.b)))

@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorization by faer for small systems; the symbolic part is kept while the pattern lasts.
+//! Sparse Cholesky factorization by faer for small systems; the symbolic factorization is reused while the pattern is unchanged.
 
 use std::sync::Arc;
 
@@ -10,23 +10,23 @@ use faer::{Col, Side};
 use crate::math::factor_in_one_thread;
 use crate::sph::poisson::matrix::Matrix;
 
-/// A direct solver that remembers the elimination order of the last pattern it saw.
+/// A direct solver that caches the elimination order of the last pattern.
 #[derive(Default)]
 pub(crate) struct SparseCholesky {
     pattern: (Arc<Vec<usize>>, Arc<Vec<u32>>),
     symbolic: Option<SymbolicLlt<usize>>,
 }
 
-/// The factorization failed; the message is the library's.
+/// The factorization failed, with the message of the library.
 #[derive(Debug, thiserror::Error)]
 #[error("sparse Cholesky factorization: {0}")]
 pub(crate) struct FactorizationError(String);
 
 impl SparseCholesky {
-    /// Solves M x = b. Each `part` that `has_dirichlet` does not name has its first unknown held at zero, see [`Unknowns`](super::Unknowns).
+    /// Solves M x = b. Each `part` without `has_dirichlet` is made definite at its first unknown, see [`Unknowns`](super::Unknowns).
     ///
     /// # Errors
-    /// [`FactorizationError`] where the matrix is not positive definite after that.
+    /// [`FactorizationError`] if the matrix is not positive definite then.
     pub(crate) fn solve(
         &mut self,
         matrix: &Matrix,
@@ -59,13 +59,13 @@ fn lower_triangle(
     part: &[u32],
     has_dirichlet: &[bool],
 ) -> Result<SparseColMat<usize, f64>, FactorizationError> {
-    let mut seen = Vec::new();
+    let mut fixed = Vec::new();
     let mut entries = Vec::with_capacity(matrix.column.len() / 2 + matrix.rows());
     for (a, part) in part.iter().enumerate().take(matrix.rows()) {
-        // Doubling one diagonal entry per part holds that unknown near zero without a change of the range's solution.
-        let first = !seen.contains(&part) && !has_dirichlet.get(*part as usize).copied().unwrap_or(false);
+        // Doubling one diagonal entry per part fixes the constant there and leaves the solution for b in the range of M otherwise unchanged.
+        let first = !fixed.contains(&part) && !has_dirichlet.get(*part as usize).copied().unwrap_or(false);
         if first {
-            seen.push(part);
+            fixed.push(part);
         }
         entries.push(Triplet::new(a, a, matrix.diagonal[a] * if first { 2.0 } else { 1.0 }));
         for (b, coupling) in matrix.row(a).filter(|&(b, _)| b <= a) {

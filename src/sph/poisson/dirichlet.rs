@@ -1,9 +1,9 @@
-//! Given values in the pressure equation: their rows are cut off, and what they do to others goes to the right side.
+//! Dirichlet values in the pressure equation: their rows are decoupled, and their couplings to other rows move to the right-hand side.
 
 use crate::sph::poisson::matrix::Matrix;
 
-/// Takes the unknowns of `given`, with their values, out of M x = b. Their own rows become D x = 0, cut off from all others, so
-/// that the matrix stays symmetric; the caller puts the values in after the solve.
+/// Eliminates the unknowns with `given` values from M x = b. Their own rows become D x = 0, decoupled from all others, so
+/// that the matrix remains symmetric; the caller inserts the values after the solve.
 pub(crate) fn impose(matrix: &mut Matrix, b: &mut [f64], given: impl Fn(usize) -> Option<f64>) {
     let rows: Vec<(usize, f64)> = (0..matrix.rows()).filter_map(|a| given(a).map(|value| (a, value))).collect();
     let mut touched: Vec<usize> = rows.iter().flat_map(|&(a, _)| matrix.row(a).map(|(b, _)| b)).collect();
@@ -32,7 +32,7 @@ mod tests {
 
     #[test]
     fn a_chain_between_two_given_values_is_linear() {
-        // x_0 = 3 and x_3 = 0 are given, and both unknowns between them are the mean of their neighbors.
+        // x_0 = 3 and x_3 = 0 are given; each of the two unknowns between them is the mean of its neighbors.
         let mut matrix = Matrix {
             start: Arc::new(vec![0, 1, 3, 5, 6]),
             column: Arc::new(vec![1, 0, 2, 1, 3, 2]),

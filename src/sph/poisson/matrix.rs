@@ -1,21 +1,21 @@
-//! A symmetric matrix with non-positive off-diagonal entries: what Eq. (30) times −V_a gives, and its coarse forms.
+//! A symmetric matrix with non-positive off-diagonal entries: that of Eq. (30) times −V_a, and its coarse-level versions.
 
 use std::sync::Arc;
 
 use crate::sph::conjugate_gradients::{SymmetricMatrix, Unknown};
 use crate::sph::parallel::each;
 
-/// Sums side by side in [`weighted_sum`].
+/// Number of independent partial sums in [`weighted_sum`].
 const LANES: usize = 4;
 
 /// M = D − A with A ≥ 0 off the diagonal: (M x)_a = D_a x_a − Σ_b A_ab x_b. Columns may repeat within a row.
 #[derive(Debug, Clone, Default)]
 pub struct Matrix {
-    /// Row starts, shared with the pairs that the matrix was made of; one more than there are rows.
+    /// Row starts, shared with the pairs from which the matrix was assembled; one more than rows.
     pub start: Arc<Vec<usize>>,
     /// Columns of the off-diagonal entries.
     pub column: Arc<Vec<u32>>,
-    /// A_ab, the negative of the off-diagonal entries, in single precision: the matrix is what these are, to the last bit of all sums.
+    /// A_ab, the negative off-diagonal entries, in single precision: the rounded values define the matrix in all sums, to the last bit.
     pub coupling: Vec<f32>,
     /// D_a.
     pub diagonal: Vec<f64>,
@@ -44,13 +44,13 @@ impl Matrix {
         weighted_sum(&self.column[row.clone()], &self.coupling[row], x)
     }
 
-    /// Bytes held, a pattern that it shares with the pairs included.
+    /// Memory in bytes, including a pattern shared with the pairs.
     pub(crate) fn bytes(&self) -> usize {
         self.start.len() * 8 + (self.column.len() + self.coupling.len()) * 4 + self.diagonal.len() * 8
     }
 }
 
-/// Σ_k w_k x_{b_k}, in four sums side by side: one would wait for each addition before the next.
+/// Σ_k w_k x_{b_k}, as four independent partial sums: in a single one each addition would wait for the one before.
 #[inline]
 pub fn weighted_sum<T: Unknown>(columns: &[u32], weights: &[f32], x: &[T]) -> T {
     let term = |(&b, &w): (&u32, &f32)| x[b as usize] * f64::from(w);

@@ -1,6 +1,6 @@
-//! The pressure Poisson equation: its matrix, and how it is solved.
+//! The pressure Poisson equation: matrix and solvers.
 //!
-//! Small systems go to sparse Cholesky, all others to conjugate gradients with a multigrid cycle as preconditioner.
+//! Small systems are solved by sparse Cholesky, all others by conjugate gradients with a multigrid cycle as preconditioner.
 
 mod aggregation;
 mod assemble;

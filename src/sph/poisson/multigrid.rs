@@ -1,8 +1,8 @@
 //! Multigrid by plain aggregation with a K-cycle, as preconditioner of conjugate gradients (Notay 2010, ETNA 37).
 //!
-//! Aggregates are squares of about 3 × 3 points, their coarse matrix is the sum of the couplings between them, and the
-//! smoother is one forward and one backward Gauss-Seidel sweep. All of it follows from the matrix and the positions of
-//! this step alone, so that a resumed run repeats it exactly. Blocks of fixed size make the sweeps parallel with the same
+//! Aggregates are squares of about 3 × 3 points, the coarse matrix sums the couplings between them, and the
+//! smoother is one forward and one backward Gauss-Seidel sweep. All depends only on the matrix and the positions of
+//! the present step, so that a resumed run repeats it exactly. Blocks of fixed size make the sweeps parallel with the same
 //! bits for any number of threads; since D ≥ Σ A the sweeps converge for any blocks.
 
 use std::sync::Arc;
@@ -23,25 +23,25 @@ const DIRECT: usize = 150;
 /// Rows of one Gauss-Seidel block.
 const BLOCK: usize = 2048;
 
-/// The second step of the K-cycle is left out where the first brought the residual below this share.
+/// The second step of the K-cycle is skipped if the first reduced the residual below this fraction.
 const GOOD_ENOUGH: f64 = 0.25;
 
-/// A share of the diagonal below which what the couplings leave of it is rounding: the part has no given value.
+/// Excess of the diagonal over the couplings, as a fraction of the diagonal, that counts as rounding: the component has no Dirichlet value.
 const ROUNDING: f64 = 1e-10;
 
-/// Parts in which a coarse matrix is made, in parallel; its rows do not depend on them.
+/// Number of parallel parts in which a coarse matrix is assembled; its rows do not depend on it.
 const PARTS: usize = 16;
 
-/// No place.
+/// No index.
 const NONE: usize = usize::MAX;
 
 struct Level {
     matrix: Matrix,
-    /// Aggregate of each unknown of the level above.
+    /// Aggregate of each unknown of the next finer level.
     aggregate: Vec<u32>,
 }
 
-/// The hierarchy of one matrix; the finest matrix stays with the caller.
+/// The hierarchy of one matrix; the caller owns the finest matrix.
 pub struct Multigrid {
     coarse: Vec<Level>,
     direct: Option<Cholesky<f64, Dyn>>,
@@ -60,7 +60,7 @@ impl Multigrid {
             }
             width *= COARSENING;
             let aggregates = Aggregates::by_cell(&points, &kind, width);
-            // Scattered points that no cell joins cannot be coarsened; widen the cells once more, then give up.
+            // Isolated points cannot be coarsened: stop once the cells are wide and still hardly join any.
             if aggregates.position.len() * 10 > finest.rows() * 9 && width > 1e3 * spacing {
                 break;
             }
@@ -73,7 +73,7 @@ impl Multigrid {
         Self { coarse, direct }
     }
 
-    /// z ≈ M⁻¹ r by one cycle from zero; of vectors each component by itself, with common steps.
+    /// z ≈ M⁻¹ r by one cycle from zero; vectors component by component, with common step lengths.
     pub fn precondition<T: Unknown>(&self, matrix: &Matrix, r: &[T], z: &mut [T]) {
         self.cycle(0, matrix, r, z);
     }
@@ -87,18 +87,18 @@ impl Multigrid {
             return;
         };
         forward_from_zero(matrix, r, z);
-        let mut left = vec![T::ZERO; r.len()];
-        matrix.residual(r, z, &mut left);
+        let mut residual = vec![T::ZERO; r.len()];
+        matrix.residual(r, z, &mut residual);
         let mut coarse_r = vec![T::ZERO; next.matrix.rows()];
-        for (&value, &group) in left.iter().zip(&next.aggregate) {
+        for (&value, &group) in residual.iter().zip(&next.aggregate) {
             coarse_r[group as usize] += value;
         }
         let coarse_z = self.inner(depth + 1, &next.matrix, &coarse_r);
         for (z, &group) in z.iter_mut().zip(&next.aggregate) {
             *z += coarse_z[group as usize];
         }
-        left.copy_from_slice(z);
-        backward(matrix, r, &left, z);
+        residual.copy_from_slice(z);
+        backward(matrix, r, &residual, z);
     }
 
     /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Notay 2010, Alg. 3.2).
@@ -134,7 +134,7 @@ impl Multigrid {
         c
     }
 
-    /// Bytes held.
+    /// Memory in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.coarse.iter().map(|level| level.matrix.bytes() + level.aggregate.len() * 4).sum()
     }
@@ -158,7 +158,7 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
     let parts: Vec<Rows> = groups
         .par_chunks(count.div_ceil(PARTS).max(1))
         .map(|groups| {
-            let mut rows = Rows { place: vec![NONE; count], ..Rows::default() };
+            let mut rows = Rows { index: vec![NONE; count], ..Rows::default() };
             groups.iter().for_each(|&g| rows.push(fine, aggregate, g, &members[start[g]..start[g + 1]]));
             rows
         })
@@ -175,7 +175,7 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
     }
 }
 
-/// The members of each aggregate, one aggregate after the other, and where each begins.
+/// The start of each aggregate in the list of members, and the list.
 fn members(aggregate: &[u32], count: usize) -> (Vec<usize>, Vec<u32>) {
     let mut start = vec![0; count + 1];
     for &group in aggregate {
@@ -200,47 +200,47 @@ struct Rows {
     column: Vec<u32>,
     coupling: Vec<f64>,
     diagonal: Vec<f64>,
-    /// Where the coupling to an aggregate was written last.
-    place: Vec<usize>,
+    /// Index of the last coupling to each aggregate.
+    index: Vec<usize>,
 }
 
 impl Rows {
-    /// Appends the row of the aggregate `group` of `members`.
+    /// Appends the row of the aggregate `group` with its `members`.
     fn push(&mut self, fine: &Matrix, aggregate: &[u32], group: usize, members: &[u32]) {
         let first = self.column.len();
-        // What given values leave of the diagonal beyond the couplings.
+        // Excess of the diagonal over the couplings, from Dirichlet values.
         let mut excess = 0.0;
         for &a in members {
             let mut coupled = 0.0;
             for (b, value) in fine.row(a as usize) {
                 coupled += value;
                 let other = aggregate[b] as usize;
-                let place = self.place[other];
+                let index = self.index[other];
                 if other == group {
                     continue;
                 }
-                if place != NONE && place >= first {
-                    self.coupling[place] += value;
+                if index != NONE && index >= first {
+                    self.coupling[index] += value;
                 } else {
-                    self.place[other] = self.column.len();
+                    self.index[other] = self.column.len();
                     self.column.push(other as u32);
                     self.coupling.push(value);
                 }
             }
             excess += fine.diagonal[a as usize] - coupled;
         }
-        // The couplings as they are stored: a row without given values sums to zero.
+        // The couplings as rounded in storage: a row without Dirichlet values sums to zero.
         let stored: f64 = self.coupling[first..].iter().map(|coupling| f64::from(*coupling as f32)).sum();
         self.diagonal.push(excess + stored);
         self.length.push(self.column.len() - first);
     }
 }
 
-/// The dense factor, with the diagonal entry of the first unknown of each connected part doubled where no value is given in it.
+/// The dense factor, with the diagonal entry of the first unknown of each connected component without a Dirichlet value doubled.
 ///
-/// That makes the matrix positive definite and leaves the solution of a right side that sums to zero over each part as it
-/// is. Something small on the whole diagonal would instead blow the rounding of that sum up to a large constant, whose
-/// rounding in turn is all that conjugate gradients would see below 1e-8.
+/// That makes the matrix positive definite and does not change the solution, up to a constant, for right-hand sides with zero sum over
+/// each component. A small shift of the whole diagonal would instead amplify the rounding of that sum to a large constant, whose own
+/// rounding would limit conjugate gradients to 1e-8.
 fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
     let n = matrix.rows();
     let mut dense = DMatrix::from_diagonal(&DVector::from_column_slice(&matrix.diagonal));
@@ -252,15 +252,15 @@ fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
         *sum += matrix.diagonal[a] - coupled;
         *size += matrix.diagonal[a];
     }
-    let mut held = 0;
+    let mut next = 0;
     for a in 0..n {
-        // Parts are numbered in the order of their first unknowns.
-        if part[a] == held {
-            let (sum, size) = excess[held as usize];
+        // Components are numbered in the order of their first unknowns.
+        if part[a] == next {
+            let (sum, size) = excess[next as usize];
             if sum <= ROUNDING * size {
                 dense[(a, a)] *= 2.0;
             }
-            held += 1;
+            next += 1;
         }
         for (b, coupling) in matrix.row(a) {
             dense[(a, b)] -= coupling;
@@ -272,7 +272,7 @@ fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
 /// z = (D − L)⁻¹ r, block by block: a forward Gauss-Seidel sweep from zero.
 fn forward_from_zero<T: Unknown>(matrix: &Matrix, r: &[T], z: &mut [T]) {
     z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
-        // Rows that are still to come count as zero: adding them costs less than telling them apart.
+        // Later rows are zero: adding them costs less than testing for them.
         z.fill(T::ZERO);
         let first = block * BLOCK;
         for i in 0..z.len() {
@@ -285,7 +285,7 @@ fn forward_from_zero<T: Unknown>(matrix: &Matrix, r: &[T], z: &mut [T]) {
     });
 }
 
-/// A backward Gauss-Seidel sweep from `old`, block by block; other blocks are seen as they were.
+/// A backward Gauss-Seidel sweep from `old`, block by block, with the old values of other blocks.
 fn backward<T: Unknown>(matrix: &Matrix, r: &[T], old: &[T], z: &mut [T]) {
     z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
         let first = block * BLOCK;

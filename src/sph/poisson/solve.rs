@@ -1,4 +1,4 @@
-//! One pressure solve: the right side made compatible, the solver chosen by size, the result checked.
+//! One pressure solve: the right-hand side made compatible, the solver chosen by size, the residual computed.
 
 use crate::math::Vec2;
 use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
@@ -7,7 +7,7 @@ use crate::sph::poisson::cholesky::SparseCholesky;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::poisson::multigrid::Multigrid;
 
-/// Systems up to this size are solved directly. Above it the factorization costs more than the iteration (benches/poisson.rs).
+/// Systems up to this size are solved directly; for larger ones the iteration is faster (benches/poisson.rs).
 const SMALL: usize = 300;
 
 /// The matrix of the pressure equation, and the points of its unknowns for the multigrid.
@@ -16,39 +16,39 @@ pub struct Unknowns<'a> {
     pub matrix: &'a Matrix,
     /// Positions in m.
     pub position: &'a [Vec2],
-    /// Light or heavy fluid or wall: coarse unknowns join one kind only.
+    /// Light or heavy fluid or given pressure: aggregates contain one kind only.
     pub kind: &'a [u8],
-    /// Part of the pore space, numbered from 0.
+    /// Connected component of the pore space, numbered from 0.
     pub part: &'a [u32],
-    /// Whether a pressure is given somewhere in the part; parts beyond the end have none.
+    /// Whether a pressure is given somewhere in the component; `false` for components beyond the end.
     pub has_dirichlet: &'a [bool],
-    /// Distance of neighboring points in m.
+    /// Spacing of neighboring points in m.
     pub spacing: f64,
 }
 
-/// One right side of the pressure equation and its solution.
+/// One right-hand side of the pressure equation and its solution.
 pub struct System<'a> {
-    /// Right side.
+    /// Right-hand side.
     pub b: &'a mut [f64],
-    /// First guess, then the solution.
+    /// Initial guess, then the solution.
     pub x: &'a mut [f64],
-    /// When its iteration stops.
+    /// Stopping criterion.
     pub tolerance: Tolerance,
 }
 
-/// Solves the pressure Poisson equation step after step.
+/// Solver of the pressure Poisson equation, reused from step to step.
 #[derive(Default)]
 pub struct PressureSolve {
     cholesky: SparseCholesky,
-    /// Bytes that the last solve held in its matrix, without the pattern that it shares, and in its hierarchy.
+    /// Memory in bytes of the matrix of the last solve, without the shared pattern, and of its hierarchy.
     bytes: [usize; 2],
 }
 
 impl PressureSolve {
-    /// Solves M x = b, one system after the other, from the first guesses `x`.
+    /// Solves M x = b for each system in turn, from the initial guesses `x`.
     ///
-    /// Without a given pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
-    /// Then x has mean zero over each such part.
+    /// Without a given pressure b must sum to zero over each component; the remainder of the discrete divergence is distributed by `volume`.
+    /// Then x has zero mean over each such component.
     pub fn solve(&mut self, unknowns: &Unknowns, volume: &[f64], systems: &mut [System]) -> Vec<Convergence> {
         let matrix = unknowns.matrix;
         self.bytes[0] = matrix.coupling.len() * 4 + matrix.rows() * 8;
@@ -86,13 +86,13 @@ impl PressureSolve {
         systems.iter_mut().map(solve).collect()
     }
 
-    /// Bytes that the last solve held.
+    /// Memory of the last solve in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.bytes.iter().sum()
     }
 }
 
-/// Takes `weight`·(Σ values/Σ weight) off the values of each part without a given pressure, so that they sum to zero over it.
+/// Subtracts `weight`·(Σ values/Σ weight) from the values of each component without a given pressure, so that they sum to zero over it.
 fn subtract_mean(unknowns: &Unknowns, weight: &[f64], values: &mut [f64]) {
     let part = unknowns.part;
     let count = part.iter().max().map_or(0, |m| *m as usize + 1);

@@ -27,14 +27,14 @@ impl View<'_, Fields> {
         Corrected { velocity, gradient_changes, projected }
     }
 
-    /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump
-    /// across the interface.
+    /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), including the gravity that it balances and the
+    /// jump across the interface.
     pub(super) fn pressure_acceleration(&self, pressure: &[f64]) -> Vec<Vec2> {
         let (fluids, f) = (self.state.particles.fluids, &self.fields.bulk);
         let mut p = pressure.to_vec();
         let form = self.config.method.pressure_gradient();
         if form != PressureGradient::Difference {
-            // The constant matters in these forms: all pressures at or above the background order the particles.
+            // The constant matters in these forms: with all pressures at or above the background the particles remain ordered.
             let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
             let shift = self.config.method.background_pressure_at(self.state.particles.fluid_speed()) - lowest;
             p.iter_mut().for_each(|p| *p += shift);
@@ -48,7 +48,7 @@ impl View<'_, Fields> {
                 let hydrostatic = self.hydrostatic();
                 let rise = |a: usize, b: usize| hydrostatic.difference(a, b);
                 let mut acceleration = pressure_gradient::difference(pairs, volume, density, &p, rise, fluids);
-                // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
+                // Only with tension: without it the uncorrected sums give more accurate decay of vortices (docs/numerics/pressure.md).
                 if let SurfaceForce::Jump { moment, .. } = &self.fields.interface.force {
                     pressure_gradient::correct_gradient(moment, &mut acceleration);
                 }

@@ -1,8 +1,8 @@
-//! Periodic sides with a given flow rate: the mean pressure gradient that drives it is one more unknown of the pressure equation.
+//! Periodic sides with a given flow rate: the mean pressure gradient that drives it is an additional unknown of the pressure equation.
 //!
-//! The pressure is p − G·x with p periodic. The velocity at the end of the step is linear in G, so that of each direction w = ∂v/∂(Δt G) is
-//! found with one more right side of the same matrix, and G follows from the rate that is asked for (Patankar, Liu and Sparrow 1977). The
-//! profile is not given: it develops.
+//! The pressure is p − G·x with p periodic. The velocity at the end of the step is linear in G, so that for each direction w = ∂v/∂(Δt G)
+//! follows from an additional right-hand side of the same matrix, and G from the required rate (Patankar, Liu and Sparrow 1977). The
+//! profile is not prescribed: it develops.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -18,13 +18,13 @@ use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::view::View;
 
-/// Largest relative residual of a response: the change of G in a step is small, and so is the divergence that this leaves of it.
+/// Largest relative residual of a response: the change of G in a step is small, and so is the resulting divergence.
 pub(super) const RESPONSE_RESIDUAL: f64 = 1e-3;
 
-/// Fluid goes on from a particle to those nearer than this over dx: not through a wall, however thin.
+/// Fluid is connected between particles closer than this over dx: not through a wall, however thin.
 const NEXT: f64 = 1.5;
 
-/// What a mean pressure gradient of 1 Pa/m does.
+/// Response to a mean pressure gradient of 1 Pa/m.
 pub(super) struct Response {
     /// The periodic part of the pressure in m (Pa per Pa/m).
     pub(super) potential: Vec<f64>,
@@ -33,16 +33,16 @@ pub(super) struct Response {
 }
 
 impl View<'_, Fields> {
-    /// Whether differences of pressure have the mean gradient in them; else it is a body force: sums that do not divide by their moment
+    /// Whether pressure differences include the mean gradient; else it is a body force: sums that are not divided by their moment
     /// are not exact for linear pressures.
     pub(super) fn gradient_in_pressure(&self) -> bool {
         self.fields.interface.force.jump().is_some()
     }
 
-    /// The right side of the pressure equation for the unit gradient along `way`; `matrix` as assembled.
-    pub(super) fn right_side_of_gradient(&self, way: Vec2, matrix: &Matrix) -> Vec<f64> {
+    /// The right-hand side of the pressure equation for the unit gradient along `axis`; `matrix` as assembled.
+    pub(super) fn right_side_of_gradient(&self, axis: Vec2, matrix: &Matrix) -> Vec<f64> {
         if !self.gradient_in_pressure() {
-            let by = (0..self.state.particles.moving()).map(|a| way / self.fields.bulk.density[a]).collect();
+            let by = (0..self.state.particles.moving()).map(|a| axis / self.fields.bulk.density[a]).collect();
             return self.minus_outflow(&self.neighborhood.images.velocity_field(by));
         }
         values(self.state.particles.len(), |a| {
@@ -51,33 +51,33 @@ impl View<'_, Fields> {
                 .pairs
                 .of(a)
                 .zip(coupling)
-                .map(|(ab, coupling)| f64::from(*coupling) * way.dot(&self.separation(a, ab.b)))
+                .map(|(ab, coupling)| f64::from(*coupling) * axis.dot(&self.separation(a, ab.b)))
                 .sum()
         })
     }
 
-    /// What the unit gradient along `way` does, with the periodic part of its pressure.
-    pub(super) fn response(&self, way: Vec2, potential: Vec<f64>) -> Response {
+    /// The response to the unit gradient along `axis`, given the periodic part of its pressure.
+    pub(super) fn response(&self, axis: Vec2, potential: Vec<f64>) -> Response {
         let (pairs, f, fluids) = (&self.neighborhood.pairs, &self.fields.bulk, self.state.particles.fluids);
         let extended = self.neighborhood.images.field(potential.clone());
         let mut acceleration;
         if let SurfaceForce::Jump { moment, .. } = &self.fields.interface.force {
-            let rise = |a: usize, b: usize| -way.dot(&self.separation(a, b));
+            let rise = |a: usize, b: usize| -axis.dot(&self.separation(a, b));
             acceleration = pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, fluids);
             pressure_gradient::correct_gradient(moment, &mut acceleration);
         } else {
             acceleration = pressure_gradient::down(pairs, &f.volume, &f.density, &extended, fluids);
-            acceleration.iter_mut().zip(&*f.density).for_each(|(by, density)| *by += way / *density);
+            acceleration.iter_mut().zip(&*f.density).for_each(|(by, density)| *by += axis / *density);
         }
         Response { potential, acceleration }
     }
 
-    /// Whether fluid that goes on from particle to particle along the axis of the side comes back to itself.
+    /// Whether the fluid percolates through the period along the axis of the side.
     fn is_open(&self, side: &OpenSide) -> bool {
-        let (way, fluids) = (side.way(), self.state.particles.fluids);
+        let (inward, fluids) = (side.way(), self.state.particles.fluids);
         let half = 0.5 * self.config.domain.bounds.size()[side.axis()];
         let reach = NEXT * self.config.method.spacing;
-        // How far along the axis each particle stands from the first of its part, by the particles between.
+        // Unwrapped coordinate along the axis of each particle relative to the first of its component, along the connecting particles.
         let mut along = vec![f64::NAN; fluids];
         let mut waiting = Vec::new();
         for first in 0..fluids {
@@ -91,7 +91,7 @@ impl View<'_, Fields> {
                     if r.norm() > reach {
                         continue;
                     }
-                    let here = along[a] + r.dot(&way);
+                    let here = along[a] + r.dot(&inward);
                     if along[b].is_nan() {
                         along[b] = here;
                         waiting.push(b);
@@ -106,11 +106,11 @@ impl View<'_, Fields> {
 }
 
 impl Flow {
-    /// Gives the fluid at time zero the flow rates that are asked for: what it has is made free of divergence, and what is missing is added as
-    /// a pressure gradient that sets in at once does.
+    /// Gives the fluid at time zero the required flow rates: the initial velocity is made divergence-free, and the missing rate is added as by
+    /// an impulsive pressure gradient.
     ///
     /// # Errors
-    /// [`SolverError::Blocked`] where solids close the way along a side, and what the pressure solve returns.
+    /// [`SolverError::Blocked`] if solids block the flow through a side, and errors of the pressure solve.
     pub(super) fn start_given_flow(&mut self) -> Result<(), SolverError> {
         let (flow, solve, work) = self.solving();
         let (through, particles) = (&flow.config.open.through, &flow.state.particles);
@@ -131,14 +131,14 @@ impl Flow {
     }
 }
 
-/// The rate in m²/s at which fluid particles of the given velocities (m/s) pass the side inwards, on the mean over the period.
+/// The inward flow rate in m²/s through the side of fluid particles with the given velocities (m/s), averaged over the period.
 fn flow_rate(config: &Configuration, side: &OpenSide, velocity: &[Vec2]) -> f64 {
-    let (way, period) = (side.way(), config.domain.bounds.size()[side.axis()]);
-    config.method.volume / period * total(velocity.len(), |a| velocity[a].dot(&way))
+    let (inward, period) = (side.way(), config.domain.bounds.size()[side.axis()]);
+    config.method.volume / period * total(velocity.len(), |a| velocity[a].dot(&inward))
 }
 
-/// The changes in Pa/m of the mean pressure gradients after which the fluid, now at the given `velocity` (m/s), has the given flow rates at
-/// the end of a step of length `dt` (s).
+/// The changes in Pa/m of the mean pressure gradients with which fluid of the given `velocity` (m/s) has the given flow rates at the end of a
+/// step of length `dt` (s).
 pub(super) fn gradient_changes(config: &Configuration, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
     let through = &config.open.through;
     let missing = |i: usize| through[i].flow_rate() - flow_rate(config, &through[i], velocity);
@@ -146,7 +146,7 @@ pub(super) fn gradient_changes(config: &Configuration, velocity: &[Vec2], respon
     match through.len() {
         0 => vec![],
         1 => vec![missing(0) / rate(0, 0)],
-        // One along each axis, coupled where solids lead the fluid aside.
+        // One along each axis, coupled where solids deflect the flow.
         _ => {
             let rates = Matrix2::from_fn(rate);
             let changes = rates.lu().solve(&Vector2::new(missing(0), missing(1))).unwrap_or_default();
@@ -155,8 +155,8 @@ pub(super) fn gradient_changes(config: &Configuration, velocity: &[Vec2], respon
     }
 }
 
-/// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the `old`
-/// places (m) is what is asked for: shifting and the density-error correction carry some along.
+/// Corrects the `new` positions (m) of the fluid particles, so that the flow through the sides in a step of length `dt` (s) from the `old`
+/// positions (m) is the required one: shifting and the density-error correction also transport fluid.
 pub(super) fn keep_flow_rates(config: &Configuration, responses: &[Response], dt: f64, old: &[Vec2], new: &mut [Vec2]) {
     if responses.is_empty() {
         return;
@@ -168,7 +168,7 @@ pub(super) fn keep_flow_rates(config: &Configuration, responses: &[Response], dt
     new.iter_mut().zip(old).zip(mean).for_each(|((to, from), mean)| *to = domain.wrapped(from + dt * mean));
 }
 
-/// Adds to the `velocity` (m/s) of the fluid what the changes (Pa/m) of the mean gradients do in `dt` (s).
+/// Adds to the `velocity` (m/s) of the fluid the effect of the changes (Pa/m) of the mean gradients in `dt` (s).
 pub(super) fn add_responses(velocity: &mut [Vec2], responses: &[Response], changes: &[f64], dt: f64) {
     for (response, change) in responses.iter().zip(changes) {
         velocity.iter_mut().zip(&response.acceleration).for_each(|(v, by)| *v += dt * change * by);

@@ -1,8 +1,8 @@
-//! How the pressures of two neighbors differ in a fluid at rest: by the jump across its interface and by the weight between them.
+//! Pressure differences of neighbors in a fluid at rest: the jump across the interface and the hydrostatic pressure.
 //!
-//! Pressure equation and pressure gradient weigh what is left of the differences by the same sums. So one fluid at rest feels no force,
-//! particle by particle and up to its walls, however the particles lie (a well-balanced scheme), and two with the pressure jump none
-//! but what their curvature errs by. Without a jump the rises across an interface of two densities do not close.
+//! Pressure equation and pressure gradient use the same sums over the deviations from these differences. So in a single fluid at rest the force
+//! on each particle vanishes, up to the walls and for any arrangement of particles (a well-balanced scheme); with two fluids and the pressure jump
+//! only the error of the curvature remains. Without the jump the differences across an interface of two densities are not consistent.
 
 use rayon::prelude::*;
 
@@ -16,7 +16,7 @@ use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::jump::Jump;
 use crate::sph::view::View;
 
-/// What makes the pressure of a fluid at rest uneven.
+/// Sources of pressure differences in a fluid at rest.
 pub(super) struct HydrostaticDifference<'a> {
     jump: Option<&'a Jump>,
     tension: f64,
@@ -24,12 +24,12 @@ pub(super) struct HydrostaticDifference<'a> {
     density: Field<f64>,
     /// g·x in m²/s², empty without gravity.
     potential: Field<f64>,
-    /// The mean gradient in Pa/m that drives given flows, with the flow whose places it acts between; none without.
+    /// The mean gradient in Pa/m that drives given flows, with the flow for the separation of particles; `None` without one.
     driven: Option<(Vec2, &'a View<'a, Fields>)>,
 }
 
 impl View<'_, Fields> {
-    /// The fluid at its present places, at rest.
+    /// The pressure differences at the present positions.
     pub(super) fn hydrostatic(&self) -> HydrostaticDifference<'_> {
         let gravity = self.config.balanced_gravity();
         let (mut potential, mut density) = (Field::default(), Field::default());
@@ -43,7 +43,7 @@ impl View<'_, Fields> {
         HydrostaticDifference { jump, tension: self.config.method.tension, density, potential, driven }
     }
 
-    /// The density in kg/m³ of the phase; walls have that of the side they take, or of the fluid nearby.
+    /// The density in kg/m³ of the phase; on walls that of the side of the interface to which they are assigned, or of the fluid nearby.
     fn density_at_rest(&self) -> Field<f64> {
         let (particles, moving, method) = (&self.state.particles, self.state.particles.moving(), &self.config.method);
         if let Some(jump) = self.fields.interface.force.jump() {
@@ -59,8 +59,8 @@ impl View<'_, Fields> {
 }
 
 impl HydrostaticDifference<'_> {
-    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) + G·(x_b − x_a) in Pa; G drives given flows, and the pressure is
-    /// that without its mean gradient −G.
+    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) + G·(x_b − x_a) in Pa; G drives given flows, and p excludes the
+    /// mean gradient −G.
     #[inline]
     pub(super) fn difference(&self, a: usize, b: usize) -> f64 {
         let jump = self.jump.map_or(0.0, |jump| self.tension * jump.of(a, b));
@@ -71,12 +71,12 @@ impl HydrostaticDifference<'_> {
         jump + 0.5 * (self.density[a] + self.density[b]) * (self.potential[b] - self.potential[a])
     }
 
-    /// Takes Σ_b A_ab (p_b − p_a) of the fluid at rest off the right side of the pressure equation.
+    /// Subtracts Σ_b A_ab (p_b − p_a) of the fluid at rest from the right-hand side of the pressure equation.
     pub(super) fn subtract_from(&self, right: &mut [f64], matrix: &Matrix, pairs: &Pairs) {
         if self.jump.is_none() && self.potential.is_empty() && self.driven.is_none() {
             return;
         }
-        // The jump alone acts between particles on the two sides of the interface.
+        // The jump alone acts only between particles on opposite sides of the interface.
         let is_level = self.potential.is_empty() && self.driven.is_none();
         right.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, right)| {
             if is_level && self.jump.is_some_and(|jump| !jump.is_across[a]) {

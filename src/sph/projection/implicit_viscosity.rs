@@ -1,12 +1,12 @@
-//! Viscosity by the velocity at the end of the step, so that it does not limit the step.
+//! Implicit viscosity, which does not limit the time step.
 //!
-//! The forces F(v) at the beginning of the step, that of the pressure before among them, give the change δ of the velocity,
-//! (m + θ Δt K) δ = Δt F(v), with the viscous matrix K: by −K v alone this is the θ method. What of the viscous force K leaves out (the
-//! transposed stress, images in Szewc's form) goes explicitly: with the transposed stress at most 2K acts, which stays stable. Where F = 0,
-//! δ = 0: rest and steady flow do not depend on the step.
+//! The forces F(v) at the beginning of the step, including the previous pressure, give the change δ of the velocity,
+//! (m + θ Δt K) δ = Δt F(v), with the viscous matrix K: for F = −K v this is the θ method. Parts of the viscous force that are not in K (the
+//! transposed stress, images in Szewc's form) are explicit: with the transposed stress at most 2K acts, which remains stable. Where F = 0,
+//! δ = 0: rest and steady flow do not depend on the time step.
 //!
-//! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, the trapezoidal rule for short
-//! steps and backward Euler for long ones, and no mode changes its sign.
+//! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, gives the trapezoidal rule for short
+//! steps and backward Euler for long ones, and no mode changes sign.
 
 use std::sync::Arc;
 
@@ -26,36 +26,35 @@ use crate::sph::view::View;
 /// Largest relative residual of the change of the velocity.
 pub(super) const RESIDUAL: f64 = 1e-6;
 
-/// Most iterations; a usual solve takes about ten, and one with steps a thousand times the explicit limit some hundreds.
+/// Maximum number of iterations; a typical solve takes about ten, with steps a thousand times the explicit limit some hundreds.
 const ITERATIONS: usize = 2000;
 
-/// Above this product of θ Δt and the largest rate a multigrid cycle as preconditioner costs less than the iterations with the diagonal
-/// that it saves.
+/// Product of θ Δt and the largest rate above which a multigrid preconditioner is faster than a diagonal one.
 const STIFF: f64 = 40.0;
 
-/// Below this product of step and rate θ is taken from its series, whose next term is z³/720.
+/// Product of time step and rate below which θ is computed from its series, whose next term is z³/720.
 const SHORT: f64 = 1e-2;
 
-/// K over the masses, m^{-1/2} K m^{-1/2} in 1/s, over fluid particles. Walls and buffers stand still in it: what it acts on is a
-/// change of the velocity, and theirs is given.
+/// K scaled by the masses, m^{-1/2} K m^{-1/2} in 1/s, over fluid particles. Walls and buffers are at rest in it: it acts on changes of the
+/// velocity, and their velocities are given.
 pub(super) struct ViscousMatrix<'a> {
     pairs: &'a Pairs,
     images: &'a Images,
-    /// Whether pairs act along their line of centers only.
+    /// Whether pair forces are central, along the line of centers.
     is_central: bool,
     /// √m of each fluid particle, m in kg/m.
     root_mass: Vec<f64>,
-    /// The negative of the off-diagonal entry of each pair, 0 where the neighbor is no fluid; of central pairs over |∇W|².
+    /// The negative off-diagonal entry of each pair, 0 where the neighbor is not fluid; for central forces divided by |∇W|².
     coupling: Vec<f32>,
     /// Diagonal blocks.
     diagonal: Vec<Mat2>,
-    /// A bound of the rates in 1/s at which viscosity slows motions, by Gershgorin's theorem.
+    /// Upper bound of the viscous decay rates in 1/s, by Gershgorin's theorem.
     largest_rate: f64,
     /// Positions in m.
     position: &'a [Vec2],
     /// Phase of each particle: the multigrid keeps fluids of different viscosity apart.
     phase: &'a [Phase],
-    /// Distance of neighboring particles in m.
+    /// Spacing of neighboring particles in m.
     spacing: f64,
 }
 
@@ -76,7 +75,7 @@ impl View<'_, Fields> {
                 return stiffer * viscous.coupling(a, ab);
             }
             let steepness = ab.grad_w.norm_squared();
-            // At the edge of the support the quotient exceeds single precision; the force of such a pair is nothing.
+            // At the edge of the support the quotient exceeds single precision; the force of such a pair vanishes.
             let has_direction = steepness > f64::from(f32::MIN_POSITIVE);
             if has_direction { viscous.central_coupling(a, ab) / steepness } else { 0.0 }
         };
@@ -85,7 +84,7 @@ impl View<'_, Fields> {
                 return strength * self.stretch_matrix(a, ab.b, |stretch| stretch);
             }
             let for_image = if ab.b < self.state.particles.len() { 1.0 } else { 2.0 };
-            // With the same stretch along and across the wall this is what acts, and symmetric in any case.
+            // Exact for equal stretches along and across the wall, and symmetric in any case.
             let along = self.stretch_matrix(a, ab.b, f64::sqrt) * ab.grad_w;
             for_image * strength * along * along.transpose()
         };
@@ -95,16 +94,15 @@ impl View<'_, Fields> {
         parts.into_par_iter().for_each(|((rows, coupling), diagonal)| {
             let mut couplings = coupling.iter_mut();
             for (a, diagonal) in rows.zip(diagonal) {
-                // What acts alike along both axes: all fluid in Morris's form.
+                // The isotropic part: all fluid in Morris's form.
                 let mut between = 0.0;
                 for (ab, coupling) in pairs.of(a).zip(&mut couplings) {
                     let (b, strength) = (images.source(ab.b), strength(a, &ab));
-                    // The image of a central pair acts along another line, so that its blocks would not be symmetric: the diagonal stands
-                    // for it.
+                    // The image of a central pair acts along another line, so that its blocks would not be symmetric: it is lumped into the diagonal.
                     let is_coupled = b < fluids && (ab.b == b || !is_central);
                     if is_coupled {
                         *coupling = (strength * (inverse_root[a] * inverse_root[b])) as f32;
-                        // With the coupling as it is stored a common velocity feels nothing, to the last bit.
+                        // With the coupling as rounded in storage the force at uniform velocity vanishes to the last bit.
                         let stored = f64::from(*coupling) * (root_mass[a] * root_mass[b]);
                         if is_central {
                             *diagonal += block(a, &ab, stored);
@@ -142,7 +140,7 @@ impl View<'_, Fields> {
 }
 
 impl ViscousMatrix<'_> {
-    /// The share of a step of length `dt` (s) that goes beyond the longest one that would be stable explicitly; 0 for shorter ones.
+    /// The fraction of a step of length `dt` (s) beyond the longest one that is stable explicitly; 0 for shorter ones.
     pub(super) fn excess(&self, dt: f64) -> f64 {
         (1.0 - 2.0 / (dt * self.largest_rate)).max(0.0)
     }
@@ -152,7 +150,7 @@ impl ViscousMatrix<'_> {
         dt * theta(dt * self.largest_rate)
     }
 
-    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at its beginning.
+    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at the beginning of the step.
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
         let weight = self.weight(dt);
         let fluids = self.diagonal.len();
@@ -173,13 +171,13 @@ impl ViscousMatrix<'_> {
     }
 }
 
-/// The weight of the end of the step, from 1/2 for short to 1 for long ones; `z` is the step times the largest rate.
+/// The weight of the end of the step, from 1/2 for short to 1 for long steps; `z` is the time step times the largest rate.
 fn theta(z: f64) -> f64 {
     if z < SHORT { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
 }
 
-/// A multigrid cycle on m + θ Δt K with one number in place of each diagonal block, half its trace: near walls the two components are
-/// stretched differently. Images do not couple in it.
+/// A multigrid cycle on m + θ Δt K with each diagonal block replaced by half its trace (near walls the two components are stretched
+/// differently), and without the couplings of images.
 struct Preconditioner<'a> {
     root_mass: &'a [f64],
     matrix: Matrix,
@@ -199,7 +197,7 @@ impl<'a> Preconditioner<'a> {
             for a in rows {
                 for (k, (column, coupling)) in pairs.row(a).zip(&mut entries) {
                     let b = pairs.neighbors()[k] as usize;
-                    // A particle does not couple to itself: such an entry is none.
+                    // A zero entry on the diagonal stands for a neighbor that is not fluid.
                     let (b, value) = if b < fluids { (b, viscous.coupling[k]) } else { (a, 0.0) };
                     *column = b as u32;
                     *coupling = (weight * root_mass[a] * root_mass[b] * f64::from(value)) as f32;
@@ -246,7 +244,7 @@ impl System<'_> {
         self.diagonal[a] * x[a] - self.weight * coupled
     }
 
-    /// x over particles and images; walls and buffers do not change.
+    /// x over particles and images; zero on walls and buffers.
     fn extended(&self, x: &[Vec2]) -> Field<Vec2> {
         self.viscous.images.velocity_field(x.to_vec())
     }

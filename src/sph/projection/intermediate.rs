@@ -1,4 +1,4 @@
-//! What the stages of a step hand on to each other.
+//! Intermediate results passed between the stages of a step.
 
 use super::given_flow::Response;
 use crate::math::Vec2;
@@ -9,25 +9,25 @@ use crate::sph::open::InteriorPoints;
 pub(super) struct Predicted {
     pub(super) dt: f64,
     pub(super) limit: &'static str,
-    /// The largest velocity of a particle in m/s, relative to the mean of all.
+    /// The largest speed of a particle in m/s, relative to the mean velocity of all.
     pub(super) fastest: f64,
-    /// v_int in m/s, without the gravity that goes with the pressure.
+    /// v_int in m/s, without the gravity that the pressure balances.
     pub(super) velocity: Field<Vec2>,
-    /// Where the buffers of open sides take the velocity from.
+    /// Interior points, for the velocity of the buffers of open sides.
     pub(super) interior: InteriorPoints,
-    /// What comes of the viscous solve.
+    /// Results of the viscous solve.
     pub(super) damped: Damped,
 }
 
-/// What one pressure solve finds.
+/// Results of the pressure solve.
 pub(super) struct Projected {
     /// Pressure in Pa, without the mean gradients that drive given flows.
     pub(super) pressure: Vec<f64>,
-    /// What the pressure that the next step begins with has more, in Pa; empty for nothing.
+    /// Addition to the pressure for the start of the next step, in Pa; empty for zero.
     pub(super) viscous_pressure: Vec<f64>,
-    /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
+    /// Displacement in m of each fluid particle by the density-error correction by shifting, empty without it.
     pub(super) density_error_shift: Vec<Vec2>,
-    /// What unit gradients along the periodic sides with a given flow do.
+    /// Responses to unit gradients along the periodic sides with a given flow.
     pub(super) responses: Vec<Response>,
 }
 
@@ -35,21 +35,21 @@ pub(super) struct Projected {
 pub(super) struct Corrected {
     /// Velocity of fluid and buffers in m/s.
     pub(super) velocity: Vec<Vec2>,
-    /// By how much the mean gradients that drive given flows change, in Pa/m.
+    /// Changes of the mean gradients that drive given flows, in Pa/m.
     pub(super) gradient_changes: Vec<f64>,
-    /// What the pressure solve found, its pressure with these changes.
+    /// Results of the pressure solve, with these changes in the pressure.
     pub(super) projected: Projected,
 }
 
-/// What comes of a viscous solve beside the acceleration; nothing of an explicit step.
+/// Results of a viscous solve besides the acceleration; empty for an explicit step.
 #[derive(Default)]
 pub(super) struct Damped {
-    /// Acceleration of the fluid in m/s² by the pressure before the step.
+    /// Acceleration of the fluid in m/s² by the pressure of the previous step.
     pub(super) by_pressure: Vec<Vec2>,
-    /// The share of the step beyond the longest explicit one.
+    /// The fraction of the step beyond the longest explicit one.
     pub(super) excess: f64,
     /// θ Δt in s, with the weight θ of the velocity at the end of the step.
     pub(super) weight: f64,
-    /// Iterations.
+    /// Number of iterations.
     pub(super) iterations: usize,
 }

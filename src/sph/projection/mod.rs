@@ -1,6 +1,4 @@
-//! One time step: predictor, pressure, corrector [Huber2013, section 3.3]. The one place where the order of the terms is decided.
-//!
-//! [`Flow::step`] is that order; the files beside this one hold its stages.
+//! One time step: predictor, pressure, corrector [Huber2013, section 3.3]. [`Flow::step`] alone defines the order of the terms.
 
 mod corrector;
 mod given_flow;
@@ -24,15 +22,15 @@ use crate::sph::open::{self, Moved};
 use crate::sph::parallel::largest;
 use crate::sph::wetting::lines::gone;
 
-/// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
-/// fluid answers to that of the buffer by a small share, so that few will do. Without them one does, for the viscous step.
+/// Pressure solves before the first step with open sides, since no previous step gives the pressure gradients. The gradient in the
+/// fluid depends only weakly on that in the buffer, so that few suffice. Without open sides one suffices, for the viscous step.
 const FIRST_SOLVES: usize = 6;
 
-/// A step is shortened so many times at most; one does where forces accelerate particles.
+/// A step is shortened at most this many times; once suffices where forces accelerate particles.
 const MOST_REPEATS: usize = 10;
 
 impl Flow {
-    /// Does one step that ends at `until` (s) or before.
+    /// Takes one step that ends at `until` (s) or before.
     ///
     /// # Errors
     /// See [`SolverError`]; positions, velocities and time are then those before the step.
@@ -40,7 +38,7 @@ impl Flow {
         let start = Instant::now();
         let time = self.state.time;
         self.config.open.sides.iter_mut().for_each(|side| side.take_step(time));
-        // Flows that follow one another in a run begin anew.
+        // Also at the start of each stage of a run.
         if self.state.last_dt == 0.0 {
             self.find_first_pressure(until)?;
         }
@@ -73,8 +71,8 @@ impl Flow {
         let (fluids, moving) = (state.particles.fluids, state.particles.moving());
         for (side, given) in open.through.iter().zip(&mut state.given_flows) {
             let (from, phase) = (&state.particles.position[..fluids], &mut state.particles.phase[..fluids]);
-            let ways = Moved { from, to: &moved.position[..fluids], volume: method.volume, dt };
-            given.pass(side, domain, &ways, phase, &mut state.fluxes);
+            let moves = Moved { from, to: &moved.position[..fluids], volume: method.volume, dt };
+            given.pass(side, domain, &moves, phase, &mut state.fluxes);
         }
         let from = std::mem::take(&mut state.particles.position);
         state.particles.position = moved.position;
@@ -96,8 +94,8 @@ impl Flow {
         }
     }
 
-    /// Finds the pressure that the viscous step and open sides take from the step before, where there is none: that which the forces at time
-    /// zero ask for.
+    /// Computes the pressure that the viscous step and open sides need from a previous step, where there is none: that which balances the forces
+    /// at time zero.
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
         self.start_given_flow()?;
         for _ in 0..if self.config.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
@@ -108,14 +106,14 @@ impl Flow {
         Ok(())
     }
 
-    /// The end of the step that is predicted so.
+    /// The end of the `predicted` step.
     fn end_of(&mut self, predicted: &Predicted) -> Result<Corrected, SolverError> {
         let (flow, solve, work) = self.solving();
         let projected = flow.project(predicted, solve, work)?;
         Ok(flow.correct(predicted, projected))
     }
 
-    /// Takes up the pressure (Pa) of a step with the changes of the mean gradients (Pa/m).
+    /// Stores the pressure (Pa) of a step and applies the changes of the mean gradients (Pa/m).
     fn take_up_pressure(&mut self, pressure: Vec<f64>, gradient_changes: &[f64]) {
         self.state.particles.pressure = pressure;
         for (given, change) in self.state.given_flows.iter_mut().zip(gradient_changes) {

@@ -1,4 +1,4 @@
-//! The end of a step: particles move, keep their order and stay out of walls.
+//! The end of a step: particles are moved, shifted and kept out of walls.
 
 use super::given_flow::keep_flow_rates;
 use super::intermediate::{Corrected, Predicted, Projected};
@@ -14,37 +14,38 @@ use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
 use crate::sph::view::View;
 
-/// A particle that moves farther than this share of h in a step has run away.
+/// A particle that moves farther than this fraction of h in a step indicates blow-up.
 const LARGEST_MOVE: f64 = 0.5;
 
-/// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
+/// A fluid particle closer to a wall than this fraction of dx is set back to that distance: a rough wall is not perfectly tight.
 const CLOSEST_TO_WALL: f64 = 0.05;
 
-/// In a corner a particle is set back from one wall after the other, so many times; in a sharp wedge the next step does the rest.
+/// In a corner a particle is set back from one wall after the other, at most this many times; in a sharp wedge the next step continues.
 const SET_BACKS: usize = 4;
 
-/// The largest speed in m/s relative to the mean velocity: a moving observer sees the same.
+/// The largest speed in m/s relative to the mean velocity, which is Galilean invariant.
 pub(super) fn relative_speed(velocity: &[Vec2]) -> f64 {
     let mean = velocity.iter().sum::<Vec2>() / velocity.len() as f64;
     largest(velocity.len(), |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1)
 }
 
-/// Where the particles of fluid and buffers are at the end of a step.
+/// Fluid and buffer particles at the end of a step.
 pub(super) struct Motion {
     /// Position in m.
     pub(super) position: Vec<Vec2>,
     /// Velocity in m/s.
     pub(super) velocity: Vec<Vec2>,
-    /// Particles set back from a wall.
+    /// Number of particles set back from a wall.
     pub(super) set_back: u64,
 }
 
 impl View<'_, Fields> {
-    /// Moves the particles with the new velocity, and by the density-error shift, if there is any, which takes density errors back and leaves velocities
-    /// alone. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
+    /// Moves the particles with the new velocity, and by the density-error shift, if there is any, which corrects density errors without changing
+    /// velocities. The mean of old and new velocity [Huber2013, Eq. 27] would amplify every oscillation not damped by viscosity
+    /// (docs/numerics/forces.md).
     ///
     /// # Errors
-    /// [`SolverError::BlowUp`] where a particle would go too far.
+    /// [`SolverError::BlowUp`] if a particle would move too far.
     pub(super) fn moved(&self, predicted: &Predicted, corrected: &Corrected) -> Result<Motion, SolverError> {
         let Projected { density_error_shift, responses, .. } = &corrected.projected;
         let (config, old) = (self.config, &self.state.particles.position);
@@ -74,7 +75,7 @@ impl View<'_, Fields> {
         Ok(Motion { position, velocity, set_back })
     }
 
-    /// Shifts particles that lie close apart, and isolated ones back across the interface; they carry their velocity along.
+    /// Shifts clustered particles apart, and isolated ones back across the interface, with the velocity corrected for the displacement.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.state.particles.fluids, &self.config.method, &self.fields.bulk);
         let diffusion = m.numerics.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
@@ -106,8 +107,8 @@ impl View<'_, Fields> {
         }
     }
 
-    /// ∇C of the fluid particles, near the interface its part along that, and the anti-clustering force, less their mean, in 1/m: what
-    /// shifting goes down.
+    /// The vector in 1/m down which particles are shifted: ∇C of the fluid particles, near the interface its tangential part, plus the
+    /// anti-clustering force without its mean.
     fn shifting_vector(&self) -> Vec<Vec2> {
         let (m, f, interface) = (&self.config.method, &self.fields.bulk, &self.fields.interface);
         let (Neighborhood { pairs, images }, fluids) = (self.neighborhood, self.state.particles.fluids);
@@ -125,7 +126,7 @@ impl View<'_, Fields> {
     }
 }
 
-/// Sets the fluid particles that came too near to walls or sides back to them, and counts them; `wall_distance` (m) is that before the step.
+/// Sets back fluid particles that came too close to walls or sides, and counts them; `wall_distance` (m) is that before the step.
 fn set_back(config: &Configuration, wall_distance: &[f64], position: &mut [Vec2], velocity: &mut [Vec2]) -> u64 {
     let mut count = 0;
     let closest = CLOSEST_TO_WALL * config.method.spacing;
@@ -143,7 +144,7 @@ fn set_back(config: &Configuration, wall_distance: &[f64], position: &mut [Vec2]
             }
         }
     }
-    // Out of an inlet with a given velocity nothing flows: what shifting brings there is set back.
+    // No fluid leaves through a side with a given velocity: particles shifted there are set back.
     for side in config.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
         for x in position.iter_mut().filter(|x| side.beyond(**x) > -closest) {
             *x = side.placed(*x, -closest);

@@ -1,4 +1,4 @@
-//! The predictor: all forces but the pressure [Huber2013, Eq. 25].
+//! The predictor: all forces except the pressure [Huber2013, Eq. 25].
 
 use super::implicit_viscosity;
 use super::intermediate::{Damped, Predicted};
@@ -16,9 +16,9 @@ use crate::sph::time_step::landing;
 use crate::sph::view::View;
 
 impl View<'_, Fields> {
-    /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that goes with the
-    /// pressure (`hydrostatic`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity goes on as
-    /// `viscous_step` says; the length of the step does not depend on it.
+    /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that the
+    /// pressure balances (`hydrostatic`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity is
+    /// integrated by `viscous_step`; the length of the step does not depend on it.
     pub(super) fn predict(
         &self,
         until: f64,
@@ -30,8 +30,8 @@ impl View<'_, Fields> {
         let viscous = self.viscous_acceleration(&self.velocity());
         let is_limited = self.config.method.numerics.viscous_step == ViscousStep::Explicit;
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
-        // Walls count: what they drag along has their velocity at the end of the step.
-        let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
+        // Walls count: fluid that they drag along has their velocity at the end of the step.
+        let (fastest_particle, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
         let method = &self.config.method;
         let (f, force) = (&self.fields.bulk, &self.fields.interface.force);
         let is_pinned = matches!(force, SurfaceForce::Jump { has_pinned_line: true, .. });
@@ -44,7 +44,7 @@ impl View<'_, Fields> {
             .tighter(longest, "acceleration");
         let smallest = self.config.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
-            let place = particles.position.get(place).copied().unwrap_or_default();
+            let place = particles.position.get(fastest_particle).copied().unwrap_or_default();
             let (dt, limit, time) = (step.dt, step.limit, self.state.time);
             return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, place });
         }
@@ -66,20 +66,20 @@ impl View<'_, Fields> {
         let interior =
             InteriorPoints::new(particles, &self.config.open.sides, &self.config.domain, &self.config.method.kernel);
         interior.set_buffer_velocity(particles, &self.config.open.sides, &mut velocity);
-        // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
+        // Walls move tangentially: no volume flux, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         let velocity = self.neighborhood.images.velocity_field(velocity);
         Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, interior, damped })
     }
 
-    /// Makes of the `acceleration` (m/s²) of the forces at the beginning of a step of length `dt` (s) the one with which viscosity holds at its
-    /// end, where the step is longer than explicit ones may be.
+    /// Replaces the `acceleration` (m/s²) of the forces at the beginning of a step of length `dt` (s) by that with implicit viscosity, if the
+    /// step is longer than the explicit limit.
     ///
-    /// The pressure before the step takes part: what it balances is no motion that viscosity would have to slow down.
+    /// The pressure of the previous step is included: forces that it balances cause no motion for viscosity to damp.
     fn damp(&self, acceleration: &mut [Vec2], dt: f64) -> Result<Damped, SolverError> {
         let matrix = self.viscous_matrix();
         let excess = matrix.excess(dt);
-        // What is stable explicitly is as exact, and needs no solve.
+        // A step that is stable explicitly is as accurate, and needs no solve.
         if excess == 0.0 {
             return Ok(Damped::default());
         }

@@ -21,34 +21,34 @@ use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::view::View;
 
-/// Above this density ratio the multigrid keeps light and heavy particles apart.
+/// Density ratio above which the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const DIRICHLET: u8 = 2;
 
-/// Largest relative residual of the density-error correction by shifting: what one step leaves, the next ones take.
+/// Largest relative residual of the density-error correction by shifting: later steps correct the remaining error.
 const CORRECTION_RESIDUAL: f64 = 0.01;
 
 /// The pressure equation of a step.
 struct PressureEquation {
     /// As assembled, without the prescribed pressures.
     matrix: Matrix,
-    /// Right side.
+    /// Right-hand side.
     b: Vec<f64>,
-    /// Pressures that are given.
+    /// Given pressures.
     prescribed: Prescribed,
-    /// First guess of the pressure in Pa.
+    /// Initial guess of the pressure in Pa.
     guess: Vec<f64>,
-    /// Further right sides, which have zero in place of the prescribed pressures.
+    /// Further right-hand sides, with zero instead of the prescribed pressures.
     others: Vec<(Vec<f64>, Tolerance)>,
 }
 
 impl View<'_, Fields> {
-    /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
-    /// no open side gives it.
+    /// The pressure that makes the velocity at the end of the step divergence-free [Huber2013, Eqs. 29-31], with zero mean over each
+    /// component in which no open side gives it.
     ///
-    /// The right side gives a share of the density error back (the density-error correction, which the paper lacks).
+    /// The right-hand side includes the density-error correction, which is not in the paper.
     pub(super) fn project(
         &self,
         predicted: &Predicted,
@@ -59,7 +59,7 @@ impl View<'_, Fields> {
         let (n, dt, position) = (self.state.particles.len(), predicted.dt, &self.state.particles.position);
         let (method, f) = (&self.config.method, &self.fields.bulk);
         let source = divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, n);
-        // A long step takes back all there is, and no more.
+        // A long step corrects the whole error at most.
         let correction = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = values(n, |a| {
             if self.config.sees_the_fluid(position[a]) {
@@ -79,26 +79,26 @@ impl View<'_, Fields> {
         let mut others = Vec::new();
         if method.numerics.density_error_shifting > 0.0 {
             let error = values(n, |a| {
-                let seen = if self.config.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
-                method.numerics.density_error_shifting * f.volume[a] * seen
+                let error = if self.config.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
+                method.numerics.density_error_shifting * f.volume[a] * error
             });
             others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
-        let ways: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
-        others.extend(ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), tolerance)));
+        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
+        others.extend(axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), tolerance)));
         let guess = self.state.particles.pressure.clone();
         let equation = PressureEquation { matrix, b, prescribed, guess, others };
         let (pressure, mut found) = self.solve(equation, solve, work)?;
-        let potentials = found.split_off(found.len() - ways.len());
-        let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
+        let potentials = found.split_off(found.len() - axes.len());
+        let responses = axes.iter().zip(potentials).map(|(&axis, potential)| self.response(axis, potential)).collect();
         // −∇ψ/ρ with the potential ψ in kg/m: the same on both sides of an interface.
         let density_error_shift = found.pop().map_or_else(Vec::new, |potential| self.down(potential));
         Ok(Projected { pressure, viscous_pressure, density_error_shift, responses })
     }
 
-    /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) free of divergence, and
-    /// what unit gradients along the periodic sides with a given flow do.
+    /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) divergence-free, and the
+    /// responses to unit gradients along the periodic sides with a given flow.
     pub(super) fn project_kinematically(
         &self,
         velocity: &Field<Vec2>,
@@ -107,17 +107,16 @@ impl View<'_, Fields> {
     ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
         let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
-        let ways: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
-        let others =
-            ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), self.config.method.tolerance)).collect();
-        let (sides, h) = (&self.config.open.sides, self.config.method.kernel.h);
-        let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, h);
+        let (sides, method) = (&self.config.open.sides, &self.config.method);
+        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
+        let others = axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), method.tolerance)).collect();
+        let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, method.kernel.h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
         let guess = vec![0.0; self.state.particles.len()];
         let equation = PressureEquation { matrix, b, prescribed, guess, others };
         let (potential, found) = self.solve(equation, solve, work)?;
-        let responses = ways.iter().zip(found).map(|(&way, potential)| self.response(way, potential)).collect();
+        let responses = axes.iter().zip(found).map(|(&axis, potential)| self.response(axis, potential)).collect();
         Ok((self.down(potential), responses))
     }
 
@@ -128,7 +127,7 @@ impl View<'_, Fields> {
         assemble(pairs, images, &bulk.volume, &bulk.density, joined)
     }
 
-    /// The pressure (Pa), and what solves the equation for each of its further right sides.
+    /// The pressure (Pa), and the solutions for the further right-hand sides.
     fn solve(
         &self,
         equation: PressureEquation,
@@ -176,7 +175,7 @@ impl View<'_, Fields> {
         Ok((p, found))
     }
 
-    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), where there is fluid to see.
+    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), 0 deep in the buffers.
     pub(super) fn minus_outflow(&self, velocity: &Field<Vec2>) -> Vec<f64> {
         let position = &self.state.particles.position;
         let mut outflow = divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, position.len());
@@ -186,10 +185,10 @@ impl View<'_, Fields> {
         outflow
     }
 
-    /// Takes out of the right side `b` what the pressure before leaks in the part of the step beyond the longest explicit one.
+    /// Subtracts from the right-hand side `b` the divergence error of the previous pressure in the part of the step beyond the longest explicit one.
     ///
-    /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
-    /// gradient): in a steady flow as much in any step, and through walls. So no step leaks more than an explicit one.
+    /// The discrete divergence of the gradient is not exactly the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence
+    /// of the gradient): in a steady flow in every step, and through walls. With the subtraction no step leaks more than an explicit one.
     fn subtract_divergence_error(&self, predicted: &Predicted, matrix: &Matrix, hydrostatic: &[f64], b: &mut [f64]) {
         let damped = &predicted.damped;
         if damped.excess == 0.0 {
@@ -210,12 +209,12 @@ impl View<'_, Fields> {
         });
     }
 
-    /// θ Δt μ_a/V_a (M φ)_a in Pa with φ = p' − p, which M φ = b − M p gives: by so much the pressure that balances the viscous forces at the end of
-    /// a long step differs from p' (Timmermans, Minev and van de Vosse 1996). Empty after explicit steps and where
-    /// [`Configuration::has_viscous_pressure`](crate::sph::setting::Setting::has_viscous_pressure) says so.
+    /// θ Δt μ_a/V_a (M φ)_a in Pa with φ = p' − p from M φ = b − M p: the difference of the pressure that balances the viscous forces at the end of
+    /// a long step from p' (Timmermans, Minev and van de Vosse 1996). Empty after explicit steps and without
+    /// [`Configuration::has_viscous_pressure`](crate::sph::configuration::Configuration::has_viscous_pressure).
     ///
-    /// The corrector adds −Δt ∇φ/ρ to a velocity with which viscosity held, and takes (1 + θ Δt K) ∇φ = ∇(φ + θ Δt μ M φ/V) for the missing part.
-    /// Without it a long step changes the pressure by a share of what is wrong that falls as 1/Δt.
+    /// The corrector adds −Δt ∇φ/ρ to a velocity for which viscosity was implicit, so that (1 + θ Δt K) ∇φ = ∇(φ + θ Δt μ M φ/V) has to be
+    /// balanced. Without this term a long step corrects only a fraction of the pressure error that decreases as 1/Δt.
     fn viscous_pressure(&self, predicted: &Predicted, matrix: &Matrix, b: &[f64]) -> Vec<f64> {
         if predicted.damped.excess == 0.0 || !self.config.has_viscous_pressure() {
             return Vec::new();

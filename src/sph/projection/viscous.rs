@@ -1,4 +1,4 @@
-//! Viscous forces between the particles of a flow, and on its walls.
+//! Viscous forces between particles and on walls.
 
 use crate::case::ViscousTerm;
 use crate::math::{Mat2, Vec2};
@@ -10,7 +10,7 @@ use crate::sph::terms::viscosity::Viscous;
 use crate::sph::view::View;
 
 impl View<'_, Fields> {
-    /// What viscous sums need of the particles.
+    /// The particle fields of the viscous sums.
     pub(super) fn viscous(&self) -> Viscous<'_> {
         let f = &self.fields.bulk;
         Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity }
@@ -40,17 +40,17 @@ impl View<'_, Fields> {
         acceleration
     }
 
-    /// 12 μ/(ρ b²) in 1/s: the rate at which floor and lid slow a particle, 0 without them.
+    /// 12 μ/(ρ b²) in 1/s: the rate at which floor and lid decelerate a particle, 0 without them.
     ///
-    /// μ is the mean by the smoothed color, which resists as layers across the flow do. With that of each phase particles of the thinner one would pass those
-    /// of the thicker one, whose pressure gradient a kernel does not tell from theirs.
+    /// μ is the arithmetic mean by the smoothed color, the resistance of layers in series. With the viscosity of each phase, particles of the less
+    /// viscous one would overtake those of the other, since the kernel does not resolve the change of the pressure gradient between them.
     pub(super) fn plate_rate(&self, a: usize) -> f64 {
         let (method, color) = (&self.config.method, self.fields.interface.color[a]);
         let viscosity = color * method.wetting_fluid.viscosity + (1.0 - color) * method.other_fluid.viscosity;
         method.plates.map_or(0.0, |plates| plates.friction * viscosity / self.fields.bulk.density[a])
     }
 
-    /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
+    /// The transposed part of the stress, `None` if the method lacks it or the fluids have the same viscosity.
     pub(super) fn transposed_stress(&self) -> Option<TransposedStress<'_>> {
         let (method, f) = (&self.config.method, &self.fields.bulk);
         let viscosities = [method.wetting_fluid, method.other_fluid].map(|fluid| method.profile() * fluid.viscosity);
@@ -68,8 +68,8 @@ impl View<'_, Fields> {
         rate.iter().enumerate().fold(0.0, |m: f64, (a, r)| m.max(r + 0.5 * self.plate_rate(a)))
     }
 
-    /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
-    /// `is_meant` takes by the index and by the place (m).
+    /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles (by index) on the wall particles
+    /// (by position in m) that `is_meant` selects.
     pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
         let (particles, f) = (&self.state.particles, &self.fields.bulk);
         let (moving, velocity) = (particles.moving(), self.velocity());
@@ -83,14 +83,14 @@ impl View<'_, Fields> {
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 
-    /// The viscous force in N per m of depth on the fluid particles that `is_meant` takes, by fluid and walls around them.
+    /// The viscous force in N per m of depth on the fluid particles that `is_meant` selects, by fluid and walls around them.
     pub(crate) fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
         let (f, acceleration) = (&self.fields.bulk, self.viscous_acceleration(&self.velocity()));
         let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
         meant.map(|(a, by)| f.density[a] * f.volume[a] * by).sum()
     }
 
-    /// v_a − v_b in m/s, at walls as these stretch it.
+    /// v_a − v_b in m/s, stretched at walls, see [`NoSlip`](crate::sph::boundary::no_slip::NoSlip).
     fn velocity_difference(&self, velocity: &Field<Vec2>, a: usize, b: usize) -> Vec2 {
         let v_ab = velocity[a] - velocity[b];
         let (distance, normal) = (self.fields.bulk.wall_distance[a], self.fields.bulk.wall_normal[a]);
@@ -102,7 +102,7 @@ impl View<'_, Fields> {
             .map_or(v_ab, |depth| self.config.method.no_slip.difference(v_ab, distance, normal, depth, slip_length))
     }
 
-    /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does, with `of` each stretch in place of the stretch.
+    /// The matrix that stretches v_a − v_b as in [`Self::velocity_difference`], with `of` applied to each stretch.
     pub(super) fn stretch_matrix(&self, a: usize, b: usize, of: impl Fn(f64) -> f64) -> Mat2 {
         let Some(depth) = self.wall_depth(b) else { return Mat2::identity() };
         let (f, no_slip) = (&self.fields.bulk, &self.config.method.no_slip);
@@ -118,7 +118,7 @@ impl View<'_, Fields> {
         self.wall_depth(b).map_or(1.0, |depth| self.config.method.no_slip.stretch(distance, depth))
     }
 
-    /// Where a wall particle or its image stands, none for fluid.
+    /// Depth of a wall particle or its image and curvature of the wall, `None` for fluid.
     fn wall_depth(&self, b: usize) -> Option<WallDepth> {
         let wall = self.neighborhood.images.source(b).checked_sub(self.state.particles.moving())?;
         Some(WallDepth { depth: self.state.wall_depth[wall], curvature: self.fields.walls.curvature[wall] })

@@ -1,5 +1,5 @@
-//! What a reader must know of a flow between a floor and a lid before it begins: throats that its depth-averaged equations do not fit, and laws that do not
-//! reach floor and lid.
+//! Notes on a flow between a floor and a lid before it starts: throats for which the depth-averaged equations are inaccurate, and wetting laws that
+//! do not apply to floor and lid.
 
 use super::method::median_width;
 use crate::case::Sph;
@@ -8,7 +8,7 @@ use crate::geometry::throats::throats;
 use crate::interface::depth::{duct_error, odd, profile_factor};
 use crate::wetting::Wetting;
 
-/// Errors of the flow through a throat above this share are told.
+/// Relative error of the flow through a throat above which a note is issued.
 const LARGEST_ERROR: f64 = 0.05;
 
 /// The notes; none in the plane.
@@ -21,7 +21,7 @@ pub(crate) fn notes(sph: &Sph, geometry: &Geometry) -> Vec<String> {
     of_throats.into_iter().chain(law).collect()
 }
 
-/// Throats so much narrower or wider than the median one that one factor of the profile does not give both their flow.
+/// The note if throats are so much narrower or wider than the median one that a single profile factor cannot describe the flow in both.
 fn unlike(sph: &Sph, (depth, widths): (f64, &[f64]), ends: [f64; 2]) -> Option<String> {
     let profile = sph.profile_factor.or_else(|| Some(profile_factor(median_width(widths)? / depth)))?;
     let error = |width: &f64| duct_error(width / depth, profile);
@@ -38,7 +38,7 @@ fn unlike(sph: &Sph, (depth, widths): (f64, &[f64]), ends: [f64; 2]) -> Option<S
     })
 }
 
-/// A law by which angles of moving lines differ from those at rest, which floor and lid keep.
+/// The note on a law with dynamic contact angles: floor and lid keep the static angle.
 fn on_walls_only(law: &Wetting) -> Option<String> {
     (!law.is_static()).then(|| {
         format!(

@@ -1,4 +1,4 @@
-//! Why a case cannot become a solver.
+//! Errors of the construction of a solver from a case.
 
 use crate::geometry::GeometryError;
 use crate::math::Vec2;
@@ -6,7 +6,7 @@ use crate::math::Vec2;
 /// A case that cannot be filled with particles.
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
-    /// A shape is not usable.
+    /// Invalid geometry.
     #[error("{0}")]
     Geometry(#[from] GeometryError),
     /// The box is too small for its periodic sides.
@@ -15,14 +15,14 @@ pub enum SetupError {
          use a smaller spacing or a longer domain"
     )]
     PeriodTooShort {
-        /// Least length in m.
+        /// Minimum length in m.
         needed: f64,
         /// Width in m.
         width: f64,
         /// Height in m.
         height: f64,
     },
-    /// An open side that nothing can pass through.
+    /// An open side blocked by solids.
     #[error("solids block the open side `{0}` all along; open another side, or leave a gap in the solids")]
     Blocked(&'static str),
     /// A parabola over several openings.
@@ -37,29 +37,29 @@ pub enum SetupError {
     },
     /// A solid or a pore that ends at an open side.
     #[error(
-        "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls go on beyond an open side, so let the shape reach \
+        "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls continue beyond an open side, so let the shape extend \
          {reach:.1e} m beyond it, or end before it", place.x, place.y
     )]
     EndsAtSide {
         /// The side.
         side: &'static str,
-        /// Where, in m.
+        /// Position in m.
         place: Vec2,
-        /// How far the shape must reach beyond the side, in m.
+        /// Distance in m by which the shape must extend beyond the side.
         reach: f64,
     },
     /// No room for a single particle.
     #[error("no fluid particle fits into the pore at a spacing of {0:.3e} m; use a smaller spacing")]
     NoFluid(f64),
-    /// A phase without a single particle beside a frozen interface.
+    /// A phase without a single particle, with a frozen interface.
     #[error(
-        "the {0} phase has no particle in the pore, and a relative permeability is that of two phases; let sph.initial give it some room"
+        "the {0} phase has no particle in the pore, and relative permeabilities need both phases; enlarge its region in sph.initial"
     )]
     NoPhase(&'static str),
 }
 
 impl SetupError {
-    /// The key of the case that a user would change.
+    /// The key of the case to change.
     pub(crate) fn key(&self) -> String {
         match self {
             Self::Geometry(_) => "geometry".to_owned(),

@@ -1,4 +1,4 @@
-//! A start from the state of a network: the region of its invading phase, and the pressures of both.
+//! Initial state from that of a network: the region of its invading phase, and the pressures of both phases.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,10 +13,10 @@ use crate::sph::fill::Region;
 use crate::sph::open::Open;
 use crate::sph::particles::{Particles, Phase};
 
-/// Interfaces are led so many spacings into the solid, so that they are seen from all places beside the wall.
+/// Interfaces are extended by this many spacings into the solid, so that the distance to them is defined everywhere along the wall.
 const INTO_SOLID: f64 = 3.0;
 
-/// Largest angle of an arc that is led on, in rad: it must not meet itself.
+/// Largest angle of an extended arc in rad: it must not meet itself.
 const WIDEST: f64 = 0.9 * TAU;
 
 /// The region of the invading phase.
@@ -26,18 +26,18 @@ pub(super) fn region(case: &Case, sph: &Sph, start: &Start) -> Region {
     let outline = NetworkState::curves(&start.state.invading_outline);
     // The menisci come last.
     let interfaces = &outline[outline.len().saturating_sub(start.state.menisci.len())..];
-    let led_on: Vec<Curve> = interfaces.iter().map(|curve| led_on(curve, INTO_SOLID * sph.spacing)).collect();
+    let extended: Vec<Curve> = interfaces.iter().map(|curve| extended(curve, INTO_SOLID * sph.spacing)).collect();
     let of = |pieces: &[Curve]| Geometry::of_surface(bounds, periodic, pieces);
     let pore_area: f64 = start.state.elements.iter().map(|element| element.area_m2).sum();
     let area = start.state.saturation_with_menisci.map(|wetting| match start.state.invading {
         FluidPhase::Wetting => wetting * pore_area,
         FluidPhase::NonWetting => (1.0 - wetting) * pore_area,
     });
-    Region::bounded(of(&outline), of(&led_on), area)
+    Region::bounded(of(&outline), of(&extended), area)
 }
 
-/// A curve with `length` (m) more at both of its ends.
-fn led_on(curve: &Curve, length: f64) -> Curve {
+/// A curve extended by `length` (m) at both ends.
+fn extended(curve: &Curve, length: f64) -> Curve {
     let share = length / curve.length();
     let share = match curve {
         Curve::Segment { .. } => share,
@@ -46,8 +46,8 @@ fn led_on(curve: &Curve, length: f64) -> Curve {
     curve.part(-share, 1.0 + share)
 }
 
-/// Sets the pressures of the fluid particles: one for each phase, the non-wetting one above the wetting one by tension times applied curvature,
-/// and for what is trapped that of its own menisci. At a side with a given pressure the phase there has that one.
+/// Sets the pressures of the fluid particles: uniform in each phase, with a difference p_n − p_w of tension times applied curvature; in trapped
+/// clusters by the curvature of their own menisci. A side with a given pressure fixes the level.
 pub(super) fn set_pressures(
     particles: &mut Particles,
     (sph, depth): (&Sph, Option<Depth>),
@@ -68,14 +68,14 @@ pub(super) fn set_pressures(
     }
 }
 
-/// The elements whose fluid is trapped.
+/// The elements with trapped fluid.
 struct Clusters {
     phase: Phase,
     elements: Vec<(Bounds, Vec<Curve>, f64)>,
 }
 
 impl Clusters {
-    /// Pressures in Pa above that of the wetting phase that is joined to a side; `jump` is that of the non-wetting one.
+    /// Pressures in Pa relative to that of the wetting phase connected to a side; `jump` is that of the connected non-wetting phase.
     fn new(state: &NetworkState, jump_at: impl Fn(f64) -> f64, jump: f64) -> Self {
         let (phase, invading, sign) = match state.invading {
             FluidPhase::NonWetting => (Phase::Wetting, jump, -1.0),
@@ -90,9 +90,9 @@ impl Clusters {
         Self { phase, elements: elements.collect() }
     }
 
-    /// The pressure of a trapped phase at `x` (m); none where it is not trapped.
+    /// The pressure of a trapped phase at `x` (m); `None` where it is not trapped.
     fn pressure(&self, phase: Phase, x: Vec2) -> Option<f64> {
-        // The pore lies on the right of a boundary.
+        // The pore is to the right of a boundary.
         let winds = |curves: &[Curve]| curves.iter().map(|curve| curve.winding(x)).sum::<f64>() < -PI;
         let mut around = self.elements.iter().filter(|(bounds, curves, _)| bounds.contains(x) && winds(curves));
         if phase == self.phase { around.next().map(|(.., pressure)| *pressure) } else { None }

@@ -1,4 +1,4 @@
-//! The flows of a relative permeability: from particles of both phases to those of the whole pore and of each phase beside a frozen interface.
+//! The flows for a relative permeability: the whole pore, and each phase with a frozen interface, from the particles of both phases.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::sph::open::Open;
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::wetting::wall::WallField;
 
-/// How far beside a wall the phase on it is looked for, over the spacing.
+/// Distance from a wall at which the phase on it is evaluated, over the spacing.
 const BESIDE: f64 = 0.1;
 
 /// Walls and initial phases of a case.
@@ -30,7 +30,7 @@ pub(super) struct Pore {
     pub(crate) sph: Arc<Sph>,
 }
 
-/// The case with the wetting fluid in both phases and nothing that acts on the interface: a slow flow has the same permeability with any fluid.
+/// The case with the wetting fluid in both phases and without interfacial forces: the permeability in creeping flow does not depend on the fluid.
 pub(super) fn with_one_fluid(sph: &Sph) -> Sph {
     Sph {
         non_wetting: sph.non_wetting.map(|_| sph.wetting),
@@ -42,7 +42,7 @@ pub(super) fn with_one_fluid(sph: &Sph) -> Sph {
     }
 }
 
-/// The flows of the pore and of its phases, from the particles of both with the `depth` (m) of those of walls.
+/// The flows of the pore and of its phases, from the particles of both and the `depth` (m) of wall particles.
 pub(super) fn frozen(pore: &Pore, particles: &Particles, depth: &[f64]) -> Result<FrozenInterface, SetupError> {
     for (phase, name) in [(Phase::Wetting, "wetting"), (Phase::NonWetting, "non-wetting")] {
         if !particles.phase.contains(&phase) {
@@ -55,12 +55,12 @@ pub(super) fn frozen(pore: &Pore, particles: &Particles, depth: &[f64]) -> Resul
     Ok(FrozenInterface::new(flows))
 }
 
-/// What makes the flow of a phase, or of the whole pore, from its particles and the depth in m of those of walls.
+/// Constructor of the flow of a phase, or of the whole pore, from its particles and the depth in m of wall particles.
 fn at_rest(pore: &Pore, phase: Option<Phase>, start: (Particles, Vec<f64>)) -> FlowAtRest {
     let pore = pore.clone();
     Box::new(move || {
         let wall = pore.clone();
-        // The same box was good for the particles.
+        // The periods were checked when the particles were filled.
         let Ground { lattice, method, domain } = Ground::of(&pore.geometry, &pore.sph);
         let viscous_time = viscous_time(&method, &lattice, &domain, |x| wall.wall(phase, x).0);
         let config = Configuration {
@@ -78,8 +78,8 @@ fn at_rest(pore: &Pore, phase: Option<Phase>, start: (Particles, Vec<f64>)) -> F
 }
 
 impl Pore {
-    /// The particles of one phase as fluid, with walls made of the solids and of the other phase down to the depth of the support; and the depth
-    /// of these in m below what bounds the phase.
+    /// The particles of one phase as fluid, with walls of the solids and the other phase down to the depth of the support, and the depth in m of
+    /// wall particles below the boundary of the phase.
     fn beside(&self, phase: Phase, of_both: &Particles) -> (Particles, Vec<f64>) {
         let support = Ground::of(&self.geometry, &self.sph).method.kernel.support();
         let (mut particles, mut depth) = (Particles::default(), Vec::new());
@@ -96,8 +96,8 @@ impl Pore {
         (particles, depth)
     }
 
-    /// Distance in m to what bounds the fluid, above 0 in it, and the normal into the fluid: of a `phase` that the other one bounds as well as the
-    /// solids, or of both.
+    /// Signed distance in m to the boundary of the fluid, positive in the fluid, and normal into it: of a `phase` bounded by the solids and the
+    /// other phase, or of both phases.
     fn wall(&self, phase: Option<Phase>, x: Vec2) -> (f64, Vec2) {
         let x = self.geometry.wrapped(x);
         let solid = self.geometry.wall(x);
@@ -109,12 +109,12 @@ impl Pore {
         match () {
             () if own && is_pore && away < solid.distance => (away, normal),
             () if own => (solid.distance, solid.normal),
-            // Under the other phase: what is nearest of the phase lies at the interface.
+            // Behind the other phase the closest part of the phase is at the interface.
             () => (-away.max(-solid.distance), -normal),
         }
     }
 
-    /// Distance of the interface in m, and the direction from there.
+    /// Distance from the interface in m, and the direction away from it.
     fn interface(&self, x: Vec2) -> (f64, Vec2) {
         let surface = self.region.surface().wall(x);
         (surface.distance.abs(), surface.distance.signum() * surface.normal)

@@ -1,4 +1,4 @@
-//! What every flow of a case stands on: lattice, method and domain, and the phase at each point at time zero.
+//! Common to all flows of a case: lattice, method and domain, and the initial phase at each point.
 
 use super::error::SetupError;
 use super::method::method;
@@ -29,7 +29,7 @@ impl Ground {
         Ok(ground)
     }
 
-    /// The same where the periods are known to be long enough.
+    /// [`Ground::new`] if the periods are known to be long enough.
     pub(super) fn of(geometry: &Geometry, sph: &Sph) -> Self {
         let bounds = geometry.bounds();
         let sides = sph.sides.each();

@@ -1,4 +1,4 @@
-//! The state at time zero: which phase is where, velocities and pressures.
+//! The state at time zero: phases, velocities and pressures.
 
 use std::f64::consts::TAU;
 
@@ -10,13 +10,13 @@ use crate::math::{Bounds, Vec2};
 use crate::sph::open::Open;
 use crate::sph::particles::Particles;
 
-/// Shapes of the initial wetting phase as a solid: negative distance inside of them.
+/// Shapes of the initial wetting phase as a geometry: the distance is negative inside them.
 pub(crate) fn region(case: &Case, shapes: &[ShapeSpec]) -> Geometry {
     Geometry::unchecked(&GeometrySpec { shapes: shapes.to_vec(), solid: SolidSide::Inside, ..case.geometry.clone() })
 }
 
-/// Sets velocities and pressures. Beyond open sides both are those of the side; `inside` is the place from which walls are seen. Fluid at
-/// rest that is to pass periodic sides begins with the parabola, where one is given.
+/// Sets velocities and pressures. Beyond open sides both are those of the side; `inside` maps positions beyond a side to the side. Fluid at
+/// rest with a given flow through periodic sides starts with the parabolic profile, where one is given.
 pub(super) fn set(
     particles: &mut Particles,
     sph: &Sph,
@@ -27,16 +27,16 @@ pub(super) fn set(
     for a in 0..particles.moving() {
         let x = particles.position[a];
         let given = sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
-        let begins = || match sph.initial.velocity {
+        let initial = || match sph.initial.velocity {
             InitialVelocity::Rest => through.iter().filter_map(|side| side.parabola(x)).sum(),
             moving => velocity(&moving, inside(x), bounds),
         };
-        particles.velocity[a] = given.unwrap_or_else(begins);
+        particles.velocity[a] = given.unwrap_or_else(initial);
     }
     for a in particles.moving()..particles.len() {
         particles.velocity[a] = wall_velocity(sph.wall_speeds, inside(particles.position[a]), bounds);
     }
-    // The slopes of the first step begin at zero: each side sees its own pressure.
+    // The pressure gradients at the sides start from zero: each particle has the pressure of the nearest side.
     for a in 0..particles.len() {
         let x = particles.position[a];
         let given = sides.iter().filter_map(|side| Some((side.beyond(x), side.given_pressure()?)));

@@ -13,7 +13,7 @@ use crate::sph::method::{Method, Plates};
 use crate::sph::poisson::Tolerance;
 use crate::wetting::Wetting;
 
-/// Most iterations of a pressure solve; a healthy one takes about ten.
+/// Maximum number of iterations of a pressure solve; a typical one takes about ten.
 const ITERATIONS: usize = 300;
 
 pub(super) fn method(sph: &Sph, geometry: &Geometry, lattice: &Lattice) -> Method {
@@ -42,13 +42,13 @@ pub(super) fn method(sph: &Sph, geometry: &Geometry, lattice: &Lattice) -> Metho
     }
 }
 
-/// The width in m of the median throat of all, the narrowest first.
+/// The median of the throat widths (m), given in ascending order.
 pub(super) fn median_width(widths: &[f64]) -> Option<f64> {
     widths.get(widths.len() / 2).copied()
 }
 
-/// Floor and lid at the distance `depth` (m). The profile is that of a duct as wide as the median throat, or as the largest circle in the pore where there is
-/// none; moving lines leave the angles of floor and lid at rest.
+/// Floor and lid at the distance `depth` (m). The profile factor is that of a duct as wide as the median throat, or as the largest circle in the
+/// pore if there is none; floor and lid keep the static angles also at moving contact lines.
 fn plates(sph: &Sph, geometry: &Geometry, lattice: &Lattice, depth: f64) -> Plates {
     let all: Vec<f64> = throats(geometry).iter().map(|throat| throat.width).collect();
     let largest = || lattice.inside().map(|x| 2.0 * geometry.signed_distance(x)).fold(0.0, f64::max);

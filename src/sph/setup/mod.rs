@@ -1,4 +1,4 @@
-//! From a checked case and its geometry to a solver: the only SPH folder that sees both.
+//! Construction of a solver from a checked case and its geometry.
 
 mod depth_notes;
 mod error;
@@ -38,10 +38,10 @@ use crate::sph::open::{self, Around};
 use crate::sph::particles::Particles;
 use crate::sph::solver::SphSolver;
 
-/// The solids of a case as its solver sees them: periodic sides joined, wall sides closed.
+/// The solids of a case for the solver: periodic sides joined, wall sides closed.
 ///
 /// # Errors
-/// [`SetupError::Geometry`] with what is wrong with the shapes.
+/// [`SetupError::Geometry`] if the shapes are invalid.
 pub(crate) fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     let sides = sph.sides.each();
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
@@ -49,7 +49,7 @@ pub(crate) fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
 }
 
-/// The solids of a case, after a look at what else can be told without its particles: the length of periods, and the openings of open sides.
+/// The solids of a case, after the checks that do not need particles: length of periods, and openings of open sides.
 pub(crate) fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     let geometry = geometry(case, sph)?;
     let ground = Ground::new(&geometry, sph)?;
@@ -58,11 +58,11 @@ pub(crate) fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, Setup
     Ok(geometry)
 }
 
-/// The region of the shapes, or of the state of a network, that a case begins with.
+/// The initial region, from shapes or from the state of a network.
 fn start_region(case: &Case, sph: &Sph) -> Region {
     match &sph.initial.network {
         Some(start) => from_network_state::region(case, sph, start),
-        // A frozen interface goes on at the opposite side, as its flow does.
+        // A frozen interface is periodic, as is its flow.
         None if sph.measure.relative_permeability => {
             let periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
             Region::of_shapes(region(case, &sph.initial.wetting).with_periodic(periodic))
@@ -76,17 +76,17 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     build_watched(case, sph, &mut |_| {})
 }
 
-/// The solver of a case at time zero; `packed` is told the share of the packing of particles that is done, which takes most of the time.
+/// The solver of a case at time zero; reports the completed fraction of the packing, which takes most of the time, to `packed`.
 pub(crate) fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
     placed(case, sph, Some(packed))
 }
 
-/// The solver of a case that takes up a saved state before anything else: as many particles as at time zero, which are not packed.
+/// The solver of a case to be restored from a saved state: with the number of particles at time zero, which are not packed.
 pub(crate) fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     placed(case, sph, None)
 }
 
-/// The solver of a case. The particles are packed where there is a function to report the progress of packing to; a state that is resumed brings packed ones.
+/// The solver of a case. The particles are packed only if there is a progress function `packed`; a resumed state has packed particles.
 fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result<SphSolver, SetupError> {
     if sph.measure.relative_permeability {
         return beside_frozen_interface(case, sph, packed.unwrap_or(&mut |_| {}));
@@ -125,8 +125,8 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     Ok(SphSolver::new(Flow::new(config, particles, depth), surroundings))
 }
 
-/// The solver that measures the relative permeabilities: the flows of the whole pore and of each phase, one after the other. Each begins with packed
-/// particles, those of a resumed run that it has not come to too.
+/// The solver for the relative permeabilities: the flows of the whole pore and of each phase, one after the other. Each starts from packed
+/// particles, also the later ones of a resumed run.
 fn beside_frozen_interface(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
     let geometry = Arc::new(geometry(case, sph)?);
     let region = start_region(case, sph);
@@ -138,7 +138,7 @@ fn beside_frozen_interface(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) 
     Ok(SphSolver::beside(frozen::frozen(&pore, &particles, &depth)?, surroundings))
 }
 
-/// The particles of pore and walls, and the depth in m of those of walls.
+/// The particles of pore and walls, and the depth in m of wall particles.
 fn filled(
     sph: &Sph,
     geometry: &Geometry,

@@ -1,4 +1,4 @@
-//! Open sides, and periodic ones with a given flow: their openings, what drives them and what comes in.
+//! Open sides, and periodic sides with a given flow: openings, given pressure or velocity, and the phase that comes in.
 
 use super::error::SetupError;
 use crate::case::{self, SIDES, Side, Sph};
@@ -8,7 +8,7 @@ use crate::sph::fill::Lattice;
 use crate::sph::open::{self, Open, OpenSide, Opening, Profile, Shape, Staircase};
 use crate::sph::particles::Phase;
 
-/// How far inside of a side its openings are looked for, over the spacing: on the side itself a solid can end.
+/// Distance inside a side at which its openings are searched, over the spacing: on the side itself a solid can end.
 const INSIDE: f64 = 1e-3;
 
 /// The open sides, and the periodic ones with a given flow; `h` is the smoothing length in m.
@@ -45,7 +45,7 @@ pub(super) fn open_sides(
             x[along] = y;
             side.placed(x, -INSIDE * sph.spacing)
         };
-        // Solids narrower than this are no obstacle that particles would see.
+        // Narrower solids are no obstacle at the resolution of the particles.
         let step = 0.1 * sph.spacing;
         let is_pore = |y: f64| geometry.signed_distance(near_side(y)) > 0.0;
         let openings = open::openings(bounds.min[along], bounds.max[along], step, is_pore);
@@ -53,9 +53,9 @@ pub(super) fn open_sides(
             return Err(SetupError::Blocked(SIDES[number]));
         }
         if kinds[number] != Side::Periodic {
-            goes_on(&side, geometry, &openings, &near_side, lattice.step)?;
+            check_walls_beyond(&side, geometry, &openings, &near_side, lattice.step)?;
         }
-        // No row has room in narrower ones, so that nothing passes there.
+        // Openings too narrow for a row are closed.
         let openings: Vec<Opening> =
             openings.into_iter().filter(|opening| opening.rows(lattice.step[along]) > 0).collect();
         if openings.is_empty() {
@@ -98,8 +98,8 @@ fn shape(form: case::Profile, side: &'static str, openings: &[Opening], ends: [S
     }
 }
 
-/// Whether solids at the side reach beyond it, as the walls of its buffer do.
-fn goes_on(
+/// Checks that solids at the side extend beyond it, as the walls of its buffer do.
+fn check_walls_beyond(
     side: &OpenSide,
     geometry: &Geometry,
     openings: &[Opening],
@@ -113,7 +113,7 @@ fn goes_on(
         let y = bounds.min[along] + (i as f64 + 0.5) * step[along];
         let place = near_side(y);
         let is_open = openings.iter().any(|o| (o.from..=o.to).contains(&y));
-        // A slanted wall may come or go near its edge.
+        // Near its edges an opening may change along an inclined wall.
         let is_near_edge = openings.iter().any(|o| (y - o.from).abs().min((y - o.to).abs()) < reach);
         if !is_near_edge && is_open != (geometry.signed_distance(side.placed(place, reach)) > 0.0) {
             return Err(SetupError::EndsAtSide { side: SIDES[side.number], place, reach });
@@ -122,7 +122,7 @@ fn goes_on(
     Ok(())
 }
 
-/// The phase that fills more of the openings.
+/// The phase that occupies the larger part of the openings.
 fn main_phase(openings: &[Opening], phase: impl Fn(f64) -> Phase, step: f64) -> Phase {
     let mut wetting = 0_i64;
     for opening in openings {
@@ -135,7 +135,7 @@ fn main_phase(openings: &[Opening], phase: impl Fn(f64) -> Phase, step: f64) -> 
     if wetting >= 0 { Phase::Wetting } else { Phase::NonWetting }
 }
 
-/// The place from which walls are seen: beyond an open side the nearest one on the side, so that walls go on along its normal.
+/// The point at which walls are evaluated: beyond an open side the nearest point on the side, so that walls continue along its normal.
 pub(super) fn inside_of_open_sides(sides: &[OpenSide]) -> impl Fn(Vec2) -> Vec2 + Send + Sync + use<> {
     let sides = sides.to_vec();
     move |x| sides.iter().fold(x, |x, side| if side.beyond(x) > 0.0 { side.placed(x, 0.0) } else { x })

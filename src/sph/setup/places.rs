@@ -1,6 +1,6 @@
-//! Where particles stand at time zero.
+//! Particle positions at time zero.
 
-use super::walls::places_of_sides;
+use super::walls::coordinates_of_sides;
 use crate::case::Side;
 use crate::geometry::Geometry;
 use crate::geometry::offset_curves::UnfittedSurface;
@@ -10,7 +10,7 @@ use crate::sph::fill::{self, Interface, Lattice, Places, Region, Room};
 use crate::sph::method::Method;
 use crate::sph::packing::Packing;
 
-/// What is filled with particles.
+/// The domain to fill with particles.
 pub(super) struct Filling<'a> {
     /// The pore.
     pub(crate) geometry: &'a Geometry,
@@ -18,16 +18,16 @@ pub(super) struct Filling<'a> {
     pub(crate) domain: &'a Domain,
     /// The lattice.
     pub(crate) lattice: &'a Lattice,
-    /// Constants.
+    /// Constants of the method.
     pub(crate) method: &'a Method,
     /// The left, right, bottom and top side.
     pub(crate) sides: [Side; 4],
-    /// Whether wall particles follow walls that the lattice does not fit.
+    /// Whether wall particles follow walls that are not aligned with the lattice.
     pub(crate) fitted_walls: bool,
 }
 
-/// Where the particles stand: along walls and, with a `region` that one phase fills, along its interface, where the lattice does not fit these, and packed to
-/// them; `done` is told the share of the packing that is done, and without it nothing is packed.
+/// The particle positions: aligned with walls and, with a `region` filled by one phase, with its interface, where these are not aligned with the
+/// lattice, and then packed. Reports the completed fraction of the packing to `done`; without it nothing is packed.
 pub(super) fn places(filling: &Filling, region: Option<&Region>, done: Option<&mut dyn FnMut(f64)>) -> Places {
     let &Filling { geometry, domain, lattice, method, sides, fitted_walls } = filling;
     let support = method.kernel.support();
@@ -46,8 +46,8 @@ pub(super) fn places(filling: &Filling, region: Option<&Region>, done: Option<&m
         interface.as_ref().map(|interface| interface.make_room(lattice, domain, &mut places)).unwrap_or_default();
     if let Some(done) = done.filter(|_| follows_walls || !layers.is_empty()) {
         let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
-        let held = places_of_sides(domain.bounds).into_iter().zip(sides);
-        let held = held.filter(|(_, side)| !matches!(side, Side::Wall | Side::Periodic)).map(|(place, _)| place);
+        let closed = coordinates_of_sides(domain.bounds).into_iter().zip(sides);
+        let closed = closed.filter(|(_, side)| !matches!(side, Side::Wall | Side::Periodic)).map(|(at, _)| at);
         let beyond: Vec<Vec2> = lattice.beyond(support, walls, open).collect();
         let packing = Packing {
             fixed: &[&places.walls[..], &layers, &beyond].concat(),
@@ -57,7 +57,7 @@ pub(super) fn places(filling: &Filling, region: Option<&Region>, done: Option<&m
             volume: method.volume,
             pore: geometry,
             interface: interface.as_ref().filter(|_| !layers.is_empty()).map(Interface::surface),
-            sides: &held.collect::<Vec<_>>(),
+            sides: &closed.collect::<Vec<_>>(),
         };
         packing.pack(&mut places.fluid, done);
     }

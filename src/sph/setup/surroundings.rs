@@ -1,4 +1,4 @@
-//! What measures and output know of the walls.
+//! Walls and solids for measures and output.
 
 use super::to_network_state::hand_back;
 use crate::case::{Case, Sph};
@@ -26,13 +26,13 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry, method: 
         wall_speeds: sph.wall_speeds,
         stages: stages(sph, case.end),
         grid_spacing: case.output.grid_ratio * sph.spacing,
-        // A frozen interface leaves the state as it was.
+        // With a frozen interface the state of the network does not change.
         hand_back: (sph.initial.network.as_ref().filter(|_| !sph.measure.relative_permeability))
             .map(|start| hand_back(start, sph.tension, method.plates.map(|plates| plates.depth))),
     }
 }
 
-/// The body forces that act one after the other until `end` (s), where that is what is measured.
+/// The body forces that act one after the other until `end` (s), for measurements of permeability.
 fn stages(sph: &Sph, end: f64) -> Option<Stages> {
     match &sph.measure {
         measure if measure.permeability => Stages::new(sph.gravity, end),
@@ -41,7 +41,7 @@ fn stages(sph: &Sph, end: f64) -> Option<Stages> {
     }
 }
 
-/// The upright rectangles among the solids.
+/// The axis-aligned rectangles among the solids.
 fn plates(spec: &GeometrySpec) -> Vec<Bounds> {
     let plate = |shape: &ShapeSpec| match shape {
         ShapeSpec::Rectangle(r) if r.rotation_deg == 0.0 => {

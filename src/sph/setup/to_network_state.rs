@@ -1,4 +1,4 @@
-//! What a direct run hands back to the network that it began with: the phase that fills more than half of each element.
+//! The state that a direct run returns to the network from which it started: the phase that fills more than half of each element.
 
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use crate::sph::particles::{Particles, Phase};
 use crate::sph::solver::HandBack;
 use crate::table::Document;
 
-const NOTE: &str = "phases by area share of a direct simulation: of each element the phase of more than half of its particles; menisci and what is \
-                    trapped are for the network to find; SI units";
+const NOTE: &str = "phases by area share of a direct simulation: in each element the phase of more than half of its particles; menisci and trapped \
+                    fluid are determined by the network; SI units";
 
-/// `at-end.json` of a direct run that began with `start`: made from its particles and its capillary pressure p_n - p_w in Pa.
+/// `at-end.json` of a direct run that started from `start`, from its particles and its capillary pressure p_n - p_w in Pa.
 pub(super) fn hand_back(start: &Start, tension: f64, depth: Option<Depth>) -> HandBack {
     let start = Arc::clone(&start.state);
     Box::new(move |particles: &Particles, pressure| {
         let fluid = (0..particles.fluids).map(|a| (particles.position[a], particles.phase[a]));
-        // Numbers, texts and lists of them can always be written.
+        // Serialization of numbers, strings and lists of them cannot fail.
         let text = serde_json::to_string(&state(&start, (tension, depth), fluid, pressure)).unwrap_or_default();
         Document { name: "at-end.json", text: text + "\n" }
     })
@@ -36,7 +36,7 @@ fn state(
         phase: match wetting.cmp(&other) {
             std::cmp::Ordering::Greater => FluidPhase::Wetting,
             std::cmp::Ordering::Less => FluidPhase::NonWetting,
-            // Too small for a particle.
+            // As in an element too small for a particle.
             std::cmp::Ordering::Equal => old.phase,
         },
         trapped: false,
@@ -67,7 +67,7 @@ fn state(
     }
 }
 
-/// Numbers of wetting and of other particles in each element.
+/// Numbers of wetting and non-wetting particles in each element.
 fn shares(start: &NetworkState, fluid: impl Iterator<Item = (Vec2, Phase)>) -> Vec<[usize; 2]> {
     let boundaries = start.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
     let elements = Elements::new(boundaries, start.images());
@@ -91,7 +91,7 @@ mod tests {
             trapped: true,
             trapped_curvature_per_m: Some(1.0),
             area_m2: 1.0,
-            // Clockwise, so that the pore lies on the right.
+            // Clockwise, so that the pore is on the right.
             boundary: vec![
                 vec![x, 0.0, x, 1.0],
                 vec![x, 1.0, x + 1.0, 1.0],

@@ -1,4 +1,4 @@
-//! Walls: how they move, where the wetting differs, and mirrors.
+//! Walls: velocities, wetting patches, and mirrors.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use crate::math::{Bounds, Vec2};
 use crate::sph::domain::{ImageVelocity, Mirror};
 use crate::sph::wetting::wall::{WallField, WallProperties};
 
-/// Axis of each side (left, right, bottom, top) and its place along it in m.
-pub(super) fn places_of_sides(Bounds { min, max }: Bounds) -> [(usize, f64); 4] {
+/// Axis of each side (left, right, bottom, top) and its coordinate along it in m.
+pub(super) fn coordinates_of_sides(Bounds { min, max }: Bounds) -> [(usize, f64); 4] {
     [(0, min.x), (0, max.x), (1, min.y), (1, max.y)]
 }
 
@@ -19,10 +19,10 @@ pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
         Side::Symmetry => Some(Mirror { axis, at, image: ImageVelocity::Mirrored }),
         Side::Periodic | Side::Wall | Side::Inlet | Side::Outlet => None,
     };
-    sides.into_iter().zip(places_of_sides(bounds)).filter_map(mirror).collect()
+    sides.into_iter().zip(coordinates_of_sides(bounds)).filter_map(mirror).collect()
 }
 
-/// Patches and velocities of the walls; none where all walls are alike and at rest.
+/// Patches and velocities of the walls; `None` if all walls are alike and at rest.
 pub(super) fn wall_properties(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallField> {
     if sph.wetting_patches.is_empty() && sph.wall_speeds == [0.0; 4] {
         return None;
@@ -51,7 +51,7 @@ pub(super) fn wall_properties(sph: &Sph, geometry: &Arc<Geometry>) -> Option<Wal
     })))
 }
 
-/// Velocity of a wall particle in m/s: that of the side which it stands behind, none behind a corner.
+/// Velocity of a wall particle in m/s: that of the side behind which it lies, zero behind a corner.
 pub(super) fn wall_velocity(speeds: [f64; 4], x: Vec2, bounds: Bounds) -> Vec2 {
     let [left, right, bottom, top] = speeds;
     let behind = |i: usize, lower: f64, upper: f64| match () {

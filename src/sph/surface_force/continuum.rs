@@ -1,4 +1,4 @@
-//! The paper's form of the surface force: volume forces in a band.
+//! Continuum surface force of the paper: volume forces in a band around the interface.
 
 use crate::case::LineDelta;
 use crate::math::Vec2;
@@ -28,16 +28,16 @@ impl View<'_, BulkFields> {
         let profile = method.profile();
         let weight: Vec<f64> = bulk.density[..fluids].iter().map(|&rho| method.force_weight(rho / profile)).collect();
         let mut lines = Vec::new();
-        let [surface, line] = self.volume_forces([&normal, &unit_normal], &curvature, &weight, delta, |seen| {
-            lines = self.followed(seen);
+        let [surface, line] = self.volume_forces([&normal, &unit_normal], &curvature, &weight, delta, |detected| {
+            lines = self.followed(detected);
             lines.iter().map(|line| line.angle).collect()
         });
         let force = SurfaceForce::Continuum { surface, line };
         (InterfaceFields { color, normal, curvature, force, ..InterfaceFields::default() }, lines)
     }
 
-    /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, from n and n̂, κ and the weights of the forces; `angles`
-    /// are those in rad at which the lines seen are to meet the wall.
+    /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] on the fluid particles in N/m³, from n and n̂, κ and the weights of the forces;
+    /// `angles` returns the contact angles in rad imposed at the detected lines.
     pub(crate) fn volume_forces(
         &self,
         [normal, unit_normal]: [&[Vec2]; 2],

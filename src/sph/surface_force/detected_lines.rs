@@ -1,7 +1,7 @@
-//! The contact lines of a sharp interface: where points of it touch a wall.
+//! Contact lines of a sharp interface, detected from its points near walls.
 //!
-//! Points nearer to the wall than 2 dx, where both phases touch it, that continue to the same place are one line. Around that place, the points within the
-//! stencil of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
+//! Points closer to the wall than 2 dx, where both phases touch it, whose continuations meet the wall at about the same position form one line. Its
+//! speed and angle follow from the points within the stencil of a fit around that position. Lines with too few points for a fit are left out.
 
 use crate::interface::weighted_circle::{
     FEWEST_FROM_CONTACT, WallFrame, WeightedPoint, angle_through, fit_from_contact,
@@ -15,35 +15,35 @@ use crate::sph::surface_force::stencils::Interface;
 use crate::sph::view::View;
 use crate::sph::wetting::lines::{ContactLineTracker, DetectedLine, TrackedLine};
 
-/// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
-/// a moving line has parted them those above.
+/// Points closer to the wall than this, over dx, determine the position of a line: those between the first two layers of particles, or
+/// those above if a moving line has separated these layers.
 const NEAR_WALL: f64 = 2.0;
 
-/// Points whose continuations meet the wall nearer to each other than this, over h, are of one line.
+/// Points whose continuations meet the wall closer to each other than this, over h, belong to one line.
 const ONE_LINE: f64 = 2.0;
 
-/// A contact line as the interface shows it.
+/// A contact line detected from the points of the interface.
 pub(crate) struct InterfaceLine<'a> {
     pub(super) interface: &'a Interface<'a>,
-    /// About where it is, on the wall, in m.
+    /// Approximate position on the wall in m.
     pub(super) place: Vec2,
     /// Wall normal.
     pub(super) normal: Vec2,
-    /// 1 where ν_ns lies to the left of the wall normal, else -1.
+    /// 1 if ν_ns points to the left of the wall normal, else -1.
     pub(super) side: f64,
     /// Mean unit normal of the interface.
     pub(super) into_wetting: Vec2,
-    /// The points around it, relative to the place.
+    /// The points around it, relative to `place`.
     pub(super) near: Vec<WeightedPoint>,
 }
 
 impl View<'_, BulkFields> {
-    /// The contact lines now, from those of the step before and from what is `detected_lines` of them.
+    /// The present contact lines, from those of the previous step and the `detected_lines`.
     pub(super) fn followed(&self, detected_lines: &[impl DetectedLine]) -> Vec<TrackedLine> {
         let Configuration { method, domain, wall_properties, .. } = self.config;
         let Some(base) = method.wetting else { return Vec::new() };
         let h = method.kernel.h;
-        // Nothing happens at a line faster than an interface of the size h moves.
+        // The response time of an interface of size h.
         let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
         let tracker = ContactLineTracker {
             domain,
@@ -89,9 +89,9 @@ impl Interface<'_> {
                         return;
                     }
                     let (_, there) = &ends[other];
-                    // From the contact point of k to that of the other one; r = x_k − x_j.
+                    // From the contact point of k to the other; r = x_k − x_j.
                     let apart = (there.contact - r - end.contact).norm();
-                    // On the other side of a narrow throat, or of a small drop, ν lies on the other side of the normal.
+                    // Across a narrow throat or a small drop, ν points to the other side of the normal.
                     if there.side == end.side && apart < ONE_LINE * self.h {
                         taken[other] = true;
                         group.push(other);
@@ -107,12 +107,12 @@ impl Interface<'_> {
     fn line(&self, ends: &[(usize, ContactPoint)], group: &[usize]) -> Option<InterfaceLine<'_>> {
         let from = self.points[ends[group[0]].0].x;
         let weight = |k: &usize| self.points[ends[*k].0].weight;
-        let place = |k: &usize| self.domain.separation(self.points[ends[*k].0].x, from) + ends[*k].1.contact;
+        let contact = |k: &usize| self.domain.separation(self.points[ends[*k].0].x, from) + ends[*k].1.contact;
         let sum: f64 = group.iter().map(weight).sum();
         if sum <= 0.0 {
             return None;
         }
-        let mean = from + group.iter().map(|k| weight(k) * place(k)).sum::<Vec2>() / sum;
+        let mean = from + group.iter().map(|k| weight(k) * contact(k)).sum::<Vec2>() / sum;
         let (distance, normal) = (self.wall)(mean);
         let place = mean - distance * normal;
         let into_wetting: Vec2 = group.iter().map(|k| weight(k) * self.points[ends[*k].0].normal).sum();
@@ -132,7 +132,7 @@ impl Interface<'_> {
     }
 }
 
-/// Whether a point is not the image of one behind a mirror.
+/// Whether a point is not an image behind a mirror.
 fn is_inside(domain: &Domain, x: Vec2) -> bool {
     domain.mirrors.iter().all(|m| domain.bounds.min[m.axis] <= x[m.axis] && x[m.axis] <= domain.bounds.max[m.axis])
 }
@@ -146,14 +146,14 @@ impl DetectedLine for InterfaceLine<'_> {
         self.side * perpendicular(self.normal)
     }
 
-    /// Σ w v·n/Σ w ν·n: along the wall, the interface moves at the speed U where v·n = U ν·n.
+    /// Σ w v·n/Σ w ν·n: an interface that moves along the wall with the speed U has v·n = U ν·n.
     fn speed(&self) -> f64 {
         let outward = self.outward();
         let (moved, along) = self.near.iter().fold((0.0, 0.0), |(moved, along), q| {
             let p = &self.interface.points[q.index];
             (moved + q.weight * p.velocity.dot(&p.normal), along + q.weight * outward.dot(&p.normal))
         });
-        // ν·n is −sin of the angle; where its mean vanishes the interface lies along the wall and tells no speed.
+        // ν·n is −sin of the angle; where its mean vanishes the interface is parallel to the wall and its speed undetermined.
         if along < 0.0 { moved / along } else { 0.0 }
     }
 
@@ -166,7 +166,7 @@ impl DetectedLine for InterfaceLine<'_> {
     fn meets(&self, angle: f64) -> Vec2 {
         let wall = WallFrame { outward: self.outward(), normal: self.normal };
         let shift = fit_from_contact(&self.near, Vec2::zeros(), wall, angle);
-        // A fit that runs away along the wall is no better than the straight continuation.
+        // A fit that is far off along the wall is no better than the straight continuation.
         let shift =
             shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
         let x = self.place + shift * wall.outward;
@@ -192,7 +192,7 @@ mod tests {
         (x.y, Vec2::y())
     }
 
-    /// The level 1/2 of the smoothed color of a drop of radius 1 on the floor that moves with (`speed`, 0) and turns about its own
+    /// The level 1/2 of the smoothed color of a drop of radius 1 on the floor that moves with (`speed`, 0) and rotates about its
     /// center, which does not move the interface.
     fn drop(degrees: f64, speed: f64) -> Vec<InterfacePoint> {
         let level = f64::midpoint(1.0, (1.0 - 4.0 * LINE_MOMENT * H * H).sqrt());
@@ -228,7 +228,7 @@ mod tests {
                 let exact = Vec2::new(side * degrees.to_radians().sin(), 0.0);
                 assert!(side.abs() == 1.0 && (line.speed() - 0.3 * side).abs() < 1e-9, "{degrees}: {}", line.speed());
                 let meets = line.meets(degrees.to_radians());
-                // The iteration for the place of the contact point gains about a digit a step at small angles.
+                // At small angles the iteration for the contact point gains about one digit per step.
                 assert!((meets - exact).norm() < 1e-3, "{degrees}: {meets:?}");
                 let present = line.present(Some(exact)).to_degrees();
                 assert!((present - degrees).abs() < 1e-6, "{degrees}: {present}");

@@ -1,19 +1,19 @@
-//! Fields of the interface, with its force in one of two forms.
+//! Fields of the interface, with the surface force in one of two forms.
 
 use crate::math::Vec2;
 use crate::sph::images::Field;
 use crate::sph::surface_force::jump::Jump;
 
-/// Where the interface is, how it bends, and what it does.
+/// Color, normal, curvature and force of the interface.
 #[derive(Debug, Clone, Default)]
 pub struct InterfaceFields {
-    /// Smoothed color; that of walls is 0 where no fluid is near.
+    /// Smoothed color; on walls 0 where no fluid is near.
     pub color: Field<f64>,
     /// n_a in 1/m.
     pub normal: Field<Vec2>,
-    /// κ_a in 1/m of all particles, 0 where there is none.
+    /// κ_a in 1/m of all particles, 0 where undefined.
     pub curvature: Vec<f64>,
-    /// Slip length in m of the wall next to each fluid particle, which contact lines change.
+    /// Slip length in m of the wall next to each fluid particle, which differs near contact lines.
     pub slip_length: Vec<f64>,
     /// The surface force.
     pub force: SurfaceForce,
@@ -22,10 +22,10 @@ pub struct InterfaceFields {
 /// The force of the interface and of its contact lines; lists over fluid particles.
 #[derive(Debug, Clone, Default)]
 pub enum SurfaceForce {
-    /// There is no interfacial tension.
+    /// No interfacial tension.
     #[default]
     None,
-    /// Forces in a band.
+    /// Volume forces in a band.
     Continuum {
         /// Surface force in N/m³.
         surface: Vec<Vec2>,
@@ -34,13 +34,13 @@ pub enum SurfaceForce {
     },
     /// A jump of the pressure.
     Jump {
-        /// What decides the jump of each pair.
+        /// Sides and curvatures that determine the jump of each pair.
         jump: Jump,
-        /// Moment of the sums of each particle's pressure gradient.
+        /// Moment of the sums of the pressure gradient of each particle.
         moment: Vec<f64>,
         /// Receding and advancing angle in rad of the wall next to each particle, NaN where none is in reach.
         wall_hysteresis: Vec<[f64; 2]>,
-        /// Whether a contact line is where its wall bends.
+        /// Whether a contact line is at an edge or bend of its wall.
         has_pinned_line: bool,
     },
 }
@@ -52,7 +52,7 @@ impl SurfaceForce {
         if let Self::Continuum { surface, line } = self { surface[a] + line[a] } else { Vec2::zeros() }
     }
 
-    /// The jump, in that form.
+    /// The jump, `None` for other forms.
     pub(crate) fn jump(&self) -> Option<&Jump> {
         if let Self::Jump { jump, .. } = self { Some(jump) } else { None }
     }

@@ -1,18 +1,18 @@
-//! Curvature of the interface from local fits of circles, free in the bulk and held to the contact angle at walls.
+//! Curvature of the interface from local circle fits, free in the bulk and constrained to the contact angle at walls.
 //!
-//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A stencil that ends at a
-//! wall would take the curvature of its middle for that at its end. What the known gradient has bent the interface is taken out
-//! of the points before a circle is fitted (`stencils`).
+//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A fit to a stencil that ends at a
+//! wall would assign the curvature of its middle to its end. So the deflection by the known gradient is subtracted from the points before a
+//! circle is fitted (`stencils`).
 //!
-//! At a pinned contact line the fit answers to the place of the interface stiffly, and not by the gradient of an energy: taken at the beginning
-//! of a step, it feeds the waves of a thin liquid. There the points are those of the end of the step.
+//! At a pinned contact line the fit responds stiffly to the position of the interface, and not as the gradient of an energy: evaluated at the
+//! start of a step, it amplifies the waves of a liquid of low viscosity. There the points at the end of the step are used.
 //!
-//! From the way s along the interface, a fit constrained to the contact angle returns the mean curvature κ̄ of \[0, s\], because its tangent at the wall
-//! is given: the interface turns by s κ̄(s) on this way, and has the curvature d(s κ̄)/ds = κ̄ + s dκ̄/ds. At rest both are the same. Where
-//! viscous stress bends the interface, the sum of κ̄ is more than the interface turns, and would pull at a moving line.
+//! At the arc length s from the wall, a fit constrained to the contact angle returns the mean curvature κ̄ of \[0, s\], because its tangent at the
+//! wall is given: the tangent of the interface rotates by s κ̄(s), and the local curvature is d(s κ̄)/ds = κ̄ + s dκ̄/ds. At rest both agree. Where
+//! viscous stress bends the interface, the integral of κ̄ exceeds this rotation and would exert a net pull on a moving line.
 //!
-//! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a stencil is
-//! fitted more than once: for the curvature that moves its points to the interface, and there.
+//! The points lie on the level 1/2 of the smoothed color, which is displaced towards the center of curvature by h²κ/7. So a stencil is
+//! fitted more than once: for the curvature by which its points are moved to the interface, and there.
 
 use crate::interface::weighted_circle::{FEWEST_FROM_CONTACT, WallFrame, WeightedPoint, fit_from_contact};
 use crate::math::{Vec2, perpendicular};
@@ -22,50 +22,50 @@ use crate::sph::surface_force::points::InterfacePoint;
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::wetting::lines::LINE_REACH;
 
-/// The points of a stencil are moved from the level to the interface so many times. At a wall, the circle through the level is not the
-/// one that meets it at the angle; each time gains more than a digit.
+/// Number of times the points of a stencil are moved from the level to the interface. At a wall the circle through the level does not meet
+/// the wall at the contact angle; each iteration gains more than a digit.
 const MOVES: usize = 3;
 
-/// Way along the interface to the wall, over h, below which the fit is held to the contact angle; fades in over 2h.
+/// Arc length along the interface to the wall, over h, below which the fit is constrained to the contact angle; the weight grows over 2h.
 const REACH: f64 = 3.0;
 
-/// The contact point is projected on a curved wall at most so many times; each gains more than a digit.
+/// Maximum number of projections of the contact point onto a curved wall; each gains more than a digit.
 const PROJECTIONS: usize = 4;
 
-/// Walls whose normals differ by less than this are the same straight wall, in rad.
+/// Walls whose normals differ by less than this angle in rad count as straight.
 const SAME_NORMAL: f64 = 1e-4;
 
-/// The angle in rad at which the interface is to meet the wall at a point of it (m), with ν_ns there.
+/// The contact angle in rad imposed at a point of the wall (m), given ν_ns there.
 pub(crate) type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
 
-/// What a fit constrained to the contact angle says of the interface between the wall and a place.
+/// Result of a fit constrained to the contact angle, for the interface between the wall and a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turning {
-    /// Mean curvature in 1/m of the way.
+    /// Mean curvature in 1/m from the contact line to the point.
     pub(crate) mean: f64,
-    /// Way along the interface from its contact line in m.
+    /// Arc length along the interface from its contact line in m.
     pub(crate) way: f64,
-    /// Share of the held fit in the curvature.
+    /// Weight of the constrained fit in the curvature.
     pub(crate) share: f64,
-    /// 1 where ν_ns lies to the left of the wall normal, else -1.
+    /// 1 if ν_ns points to the left of the wall normal, else -1.
     pub(crate) side: f64,
-    /// The contact line in m.
+    /// Position of the contact line in m.
     pub(crate) line: Vec2,
 }
 
-/// Curvature of the interface at a place.
+/// Curvature of the interface at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fitted {
-    /// That of the fits in 1/m.
+    /// Curvature of the fits in 1/m.
     pub(crate) curvature: f64,
-    /// What the held fit says, where there is one.
+    /// Result of the constrained fit, if there is one.
     pub(crate) turning: Option<Turning>,
 }
 
-/// The fits that give the curvature of an interface.
+/// The fits for the curvature of an interface.
 pub(crate) struct InterfaceFit<'a> {
     interface: &'a Interface<'a>,
-    /// Angle of the wetting law, where there is one.
+    /// Angle of the wetting law, if there is one.
     angle: Option<&'a AngleAt<'a>>,
     /// The contact lines at edges and tight bends of the walls.
     pinned_lines: &'a [PinnedLine],
@@ -77,17 +77,17 @@ impl<'a> InterfaceFit<'a> {
         Self { interface, angle: None, pinned_lines: &[] }
     }
 
-    /// The same fits, but the interface is to meet walls at the given angle.
+    /// The fits constrained to the given angle at walls.
     pub(crate) fn with_contact_angle(self, angle: &'a AngleAt<'a>) -> Self {
         Self { angle: Some(angle), ..self }
     }
 
-    /// The same fits with the contact lines at edges and tight bends.
+    /// The fits with the contact lines at edges and tight bends.
     pub(crate) fn with_pinned_lines(self, pinned_lines: &'a [PinnedLine]) -> Self {
         Self { pinned_lines, ..self }
     }
 
-    /// The same with what held fits say of the way from the wall.
+    /// Curvature of the interface nearest to `x` (m), with the result of the constrained fit.
     pub(crate) fn at(&self, x: Vec2) -> Option<Fitted> {
         let nearest = self.interface.nearest(x).into_iter();
         let found: Vec<Fitted> = nearest.filter_map(|(p, from_p)| self.fitted_at(p, from_p, x)).collect();
@@ -95,12 +95,12 @@ impl<'a> InterfaceFit<'a> {
         match found[..] {
             [] => None,
             [one] => Some(one),
-            // Equally near points, on an axis of symmetry, may belong to different contact lines.
+            // Equidistant points, on an axis of symmetry, may belong to different contact lines.
             _ => Some(Fitted { curvature, turning: None }),
         }
     }
 
-    /// The curvature at `x` from the stencil near the point `p`, from which x lies at `from_p`.
+    /// The curvature at `x` from the stencil near the point `p`, with `from_p` = x − x_p.
     fn fitted_at(&self, p: usize, from_p: Vec2, x: Vec2) -> Option<Fitted> {
         let nearest = InterfacePoint { x: x - from_p, ..self.interface.points[p] };
         let (point, level) = self.interface.stencil_at_closest_point(nearest, x);
@@ -108,17 +108,17 @@ impl<'a> InterfaceFit<'a> {
         for _ in 0..MOVES {
             at = self.fitted(&point, &self.interface.on_interface(&level, at.curvature))?;
         }
-        // At rest the curvature, continued so off the interface, balances gravity between any two particles.
+        // At rest the curvature extrapolated off the interface in this way balances gravity between any two particles.
         let off = self.interface.gradient.dot(&(x - point.x));
         let (kappa, limit) = (at.curvature + off, self.interface.limit());
         let turning = at.turning.map(|turning| Turning { mean: turning.mean + off, ..turning });
         kappa.is_finite().then(|| Fitted { curvature: kappa.clamp(-limit, limit), turning })
     }
 
-    /// Curvature of the stencil `near` at `point`: held to the angle at a wall, free far from one.
+    /// Curvature of the stencil `near` at `point`: constrained to the angle at a wall, free far from one.
     fn fitted(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<Fitted> {
         let free = self.interface.circle(near, point.normal).and_then(|circle| circle.curvature());
-        let turning = self.held_fit(point, near);
+        let turning = self.constrained_fit(point, near);
         let curvature = match (turning, free) {
             (Some(Turning { mean, share, .. }), Some(free)) => share * mean + (1.0 - share) * free,
             (Some(Turning { mean, .. }), None) => mean,
@@ -127,8 +127,8 @@ impl<'a> InterfaceFit<'a> {
         Some(Fitted { curvature, turning })
     }
 
-    /// The fit held to the contact angle, where the interface meets a wall near `point`.
-    fn held_fit(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<Turning> {
+    /// The fit constrained to the contact angle, if the interface meets a wall near `point`.
+    fn constrained_fit(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<Turning> {
         let touches = near.iter().any(|q| self.interface.points[q.index].touches);
         if self.angle.is_none() || !touches || near.len() < FEWEST_FROM_CONTACT {
             return None;
@@ -150,24 +150,24 @@ impl<'a> InterfaceFit<'a> {
             let (mean, delta) = self.fit_at(point, &near, contact, wall)?;
             return Some(turning(mean, contact + delta * wall.outward));
         }
-        let mut held = None;
+        let mut found = None;
         for _ in 0..PROJECTIONS {
             let wall = WallFrame { outward: side * perpendicular(normal), normal };
             let (mean, delta) = self.fit_at(point, near, contact, wall)?;
-            held = Some(turning(mean, contact + delta * wall.outward));
-            // The contact point found lies on the tangent of the wall; a curved wall is looked at again there.
-            let place = point.x + contact + delta.clamp(-self.interface.h, self.interface.h) * wall.outward;
-            let (distance, there) = (self.interface.wall)(place);
+            found = Some(turning(mean, contact + delta * wall.outward));
+            // The contact point is on the tangent of the wall; a curved wall is evaluated again there.
+            let on_tangent = point.x + contact + delta.clamp(-self.interface.h, self.interface.h) * wall.outward;
+            let (distance, there) = (self.interface.wall)(on_tangent);
             if (there - normal).norm() < SAME_NORMAL {
                 break;
             }
-            (contact, normal) = (place - distance * there - point.x, there);
+            (contact, normal) = (on_tangent - distance * there - point.x, there);
         }
-        held
+        found
     }
 
     /// Curvature in 1/m at `point` of the circle that meets the straight `wall` through `contact` (m from `point`) at the
-    /// contact angle, and the way in m along ν from there to where it does.
+    /// contact angle, and the distance in m along ν from `contact` to the intersection.
     fn fit_at(
         &self,
         point: &InterfacePoint,
@@ -181,7 +181,7 @@ impl<'a> InterfaceFit<'a> {
         Some((kappa - self.interface.gradient.dot(&(contact + delta * wall.outward)), delta))
     }
 
-    /// The line at a bend to which an interface belongs that meets the wall about `x` (m), on the given side.
+    /// The pinned line of an interface that meets the wall near `x` (m), on the given side.
     fn pinned_line_at(&self, x: Vec2, side: f64) -> Option<&PinnedLine> {
         let distance = |line: &&PinnedLine| self.interface.domain.separation(line.place, x).norm();
         let pinned_lines =
@@ -190,16 +190,15 @@ impl<'a> InterfaceFit<'a> {
     }
 }
 
-/// Length in m of the arc of the curvature `kappa` (1/m) over a chord (m), of half a circle at most.
+/// Length in m of the arc with the curvature `kappa` (1/m) over a chord (m), at most half a circle.
 fn arc(chord: f64, kappa: f64) -> f64 {
     let half = (0.5 * kappa.abs() * chord).min(1.0);
     if half > 1e-6 { chord * half.asin() / half } else { chord }
 }
 
-/// What tests compare with.
 #[cfg(test)]
 impl<'a> InterfaceFit<'a> {
-    /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the stencil.
+    /// Curvature in 1/m of the interface nearest to `x`, `None` without interface within the stencil.
     pub(crate) fn curvature(&self, x: Vec2) -> Option<f64> {
         self.at(x).map(|fitted| fitted.curvature)
     }
@@ -226,9 +225,9 @@ mod tests {
         1.0 - LINE_MOMENT * H * H
     }
 
-    /// An interface at rest through the places with their normals that lie outside of the wall.
-    fn interface(places: impl Iterator<Item = (Vec2, Vec2)>, wall: &Wall) -> Vec<InterfacePoint> {
-        places
+    /// An interface at rest through those of the points, given with their normals, that are outside the wall.
+    fn interface(points: impl Iterator<Item = (Vec2, Vec2)>, wall: &Wall) -> Vec<InterfacePoint> {
+        points
             .map(|(x, normal)| (x, normal, wall(x)))
             .filter(|(.., (wall_distance, _))| *wall_distance > 0.0)
             .map(|(x, normal, (wall_distance, wall_normal))| InterfacePoint {
@@ -243,7 +242,7 @@ mod tests {
             .collect()
     }
 
-    /// Unit vectors all around.
+    /// Unit vectors in all directions.
     fn directions() -> impl Iterator<Item = Vec2> {
         (0..400).map(|i| std::f64::consts::TAU * f64::from(i) / 400.0).map(|t| Vec2::new(t.cos(), t.sin()))
     }
@@ -272,7 +271,7 @@ mod tests {
 
     #[test]
     fn a_rough_interface_has_the_same_curvature_on_both_sides() {
-        // Bumps of a tenth of a spacing, 2.3 spacings apart, as single particles on the wrong side of the interface make them.
+        // Bumps of a tenth of a spacing, 2.3 spacings apart, as from single particles on the wrong side of the interface.
         let bump = |n: &Vec2| (27.0 * n.y.atan2(n.x)).cos();
         let rough = directions().map(|n| ((level() + 0.01 * bump(&n)) * n, -n));
         let points = interface(rough, &|_| (f64::INFINITY, Vec2::zeros()));
@@ -281,7 +280,7 @@ mod tests {
         for n in directions().take(30) {
             let [inside, outside] = [0.75, 1.25].map(|r| fit.curvature(r * n).unwrap());
             assert!((inside - outside).abs() < 5e-3, "{inside} inside, {outside} outside");
-            // A bump is not seen as a dent: the wave has 2 % of its own curvature, which is seven times that of the circle.
+            // A bump does not appear as a dent: the fit has 2 % of the curvature of the wave, which is seven times that of the circle.
             assert!((inside - 1.0 - 0.023 * bump(&n)).abs() < 5e-3, "{inside} at {}", bump(&n));
         }
     }
@@ -294,9 +293,9 @@ mod tests {
             let law = |_, _| angle;
             let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
             let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
-            // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
+            // At 30 degrees and heights of .1 or more the tangent is so far from the contact point that the iteration ends 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
-            // Points below the top of the cap only.
+            // Only points below the top of the cap.
             for height in [0.02, 0.1, 0.3].into_iter().filter(|height| height + angle.cos() < 1.0) {
                 let x = Vec2::new((1.0 - (height + angle.cos()).powi(2)).sqrt(), height);
                 let kappa = fit.curvature(x).unwrap();
@@ -307,7 +306,7 @@ mod tests {
 
     #[test]
     fn a_drop_on_a_disc_at_its_contact_angle_has_one_curvature_up_to_the_wall() {
-        // A drop of radius 1 about the origin on a solid disc of radius 1.5: centers at c² = 1 + R² − 2R cos θ.
+        // A drop of radius 1 about the origin on a solid disc of radius 1.5: distance of centers c² = 1 + R² − 2R cos θ.
         const DISC: f64 = 1.5;
         for degrees in [40.0_f64, 90.0, 120.0] {
             let angle = degrees.to_radians();
@@ -322,7 +321,7 @@ mod tests {
             let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
             for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
                 let kappa = fit.curvature(point.x).unwrap();
-                // The interface is followed down to the wall along its tangent, and the wall along its own.
+                // The error is that of the tangents by which interface and wall are extrapolated.
                 assert!(
                     (kappa - 1.0).abs() < 2e-3,
                     "at {degrees} degrees, {:.3} off the wall: {kappa}",
@@ -366,7 +365,7 @@ mod tests {
                 let largest = near_wall.map(|(x, z, _, exact)| error(*x, *z, *exact).abs()).fold(0.0, f64::max);
                 largest / profile[profile.len() - 1].3
             };
-            // Six spacings per capillary length: with the gradient the error is that of the third order, without it is the first.
+            // Six spacings per capillary length: third-order error with the gradient, first-order without.
             let (known, unknown) = (at(-1.0 / (LENGTH * LENGTH)), at(0.0));
             assert!(known < 0.02 && unknown > 0.05, "at {degrees} degrees: {known}, without gradient {unknown}");
         }

@@ -1,4 +1,4 @@
-//! The pressure jump J_ab = σ κ̄_ab (c_b − c_a) between particles on the two sides of the interface.
+//! The pressure jump J_ab = σ κ̄_ab (c_b − c_a) between particles on opposite sides of the interface.
 
 use rayon::prelude::*;
 
@@ -17,40 +17,40 @@ use crate::sph::view::View;
 /// Passes of the smoothing of the curvature along the interface.
 const PASSES: usize = 1;
 
-/// What the kernel's average takes from a wave of the wavenumber k, over k²h²: half its second moment, 5 h²/18 along each direction.
+/// Relative attenuation of a wave with wavenumber k by the kernel average, over k²h²: half its second moment, 5 h²/18 along each direction.
 const LOSS_OF_A_PASS: f64 = 5.0 / 36.0;
 
-/// What a circle fit takes, over k²h²: k² r²/(4s + 14) for its stencil r and the weight (1 − d²/r²)^s.
+/// Relative attenuation by a circle fit, over k²h²: k² r²/(4s + 14) for its stencil r and the weight (1 − d²/r²)^s.
 const LOSS_OF_THE_FIT: f64 = STENCIL_RADIUS * STENCIL_RADIUS / (4 * SMOOTHNESS + 14) as f64;
 
-/// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
+/// Factor on the attenuation of all passes in the deconvolution, so that it also compensates for those of color and fit.
 const DECONVOLUTION: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
 
-/// Constrained fits whose contact lines are farther apart than this, over h, are of different lines.
+/// Constrained fits whose contact lines are farther apart than this, over h, belong to different lines.
 const ONE_LINE: f64 = 2.0;
 
-/// Spread of the ways in a regression, over h², that is added to it: one of few ways does not run away.
+/// Regularization added to the variance of the arc lengths in a regression, over h², for few or similar arc lengths.
 const LEAST_SPREAD: f64 = 0.02;
 
 /// Largest correction of a curvature over 1/h.
 const LARGEST_CORRECTION: f64 = 0.5;
 
-/// What decides the jump of each pair.
+/// Sides and curvatures that determine the jump of each pair.
 #[derive(Debug, Clone)]
 pub struct Jump {
-    /// Side of the interface: 1 in the wetting phase, 0 in the other; wall particles take that of the fluid nearby.
+    /// Side of the interface: 1 in the wetting phase, 0 in the other; wall particles have that of the fluid nearby.
     pub side: Field<f64>,
-    /// Curvature in 1/m of the interface near the particle, continued to it by what it varies by at rest; NaN where there is none.
+    /// Curvature in 1/m of the interface near the particle, extrapolated to it with the gradient at rest; NaN away from the interface.
     pub curvature: Field<f64>,
     /// Whether a particle has a neighbor on the other side.
     pub is_across: Vec<bool>,
-    /// Floor and lid, and the particles whose interface they alone bound; none in the plane.
+    /// Floor and lid, and whether a particle belongs to a drop or bubble away from walls; `None` in the plane.
     pub(crate) plates: Option<(Depth, Field<bool>)>,
 }
 
 impl Jump {
-    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls. `curvature_at` is that near a place (m), none
-    /// where there is no interface; `gradient` that at rest in 1/m².
+    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls. `curvature_at` is the curvature near a point
+    /// (m), `None` away from the interface; `gradient` its gradient at rest in 1/m².
     pub(crate) fn new(
         flow: &View<BulkFields>,
         color: &[f64],
@@ -81,7 +81,7 @@ impl Jump {
         });
         let mut curvature = smoothed(on_fluid, flow.neighborhood, &rest);
         curvature.resize(n, f64::NAN);
-        // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
+        // Wall particles: the mean of their fluid neighbors; in deeper layers that of the previous layer.
         for _ in 0..2 {
             let known = images.field(curvature);
             let of_wall = |a: usize| average_at(a, pairs, None, |b| known[b] + rest(a, b));
@@ -95,7 +95,7 @@ impl Jump {
         }
     }
 
-    /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the curvatures that exist.
+    /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the defined curvatures.
     #[inline]
     pub(crate) fn of(&self, a: usize, b: usize) -> f64 {
         if !self.is_across[a] {
@@ -112,7 +112,7 @@ impl Jump {
             (true, false) => k_b,
             (true, true) => 0.0,
         };
-        // The curvature is above 0 where the wetting phase is convex, and that of a meniscus where it bulges into it.
+        // κ is positive where the wetting phase is convex, the curvature of a meniscus where it bulges into the wetting phase.
         let kappa = match &self.plates {
             None => kappa,
             Some((depth, is_drop)) if is_drop[a] || is_drop[b] => -depth.curvature_of_drop(-kappa),
@@ -122,7 +122,7 @@ impl Jump {
     }
 }
 
-/// The particles of drops and bubbles: of parts of a phase that no wall is near to.
+/// The particles of drops and bubbles: of ganglia without a wall nearby.
 fn drops(flow: &View<BulkFields>) -> Field<bool> {
     let (Neighborhood { pairs, images }, particles) = (flow.neighborhood, &flow.state.particles);
     let (phase, moving) = (&particles.phase, particles.moving());
@@ -138,8 +138,8 @@ fn drops(flow: &View<BulkFields>) -> Field<bool> {
     images.field(of_particle.collect())
 }
 
-/// What the curvature in 1/m is greater by at the end of a way from the wall than the mean of the way: s dκ̄/ds, with the slope of a linear
-/// regression over the `neighbors` and their weights.
+/// The difference in 1/m of the local curvature from the mean between the wall and the arc length s: s dκ̄/ds, with the slope of a weighted linear
+/// regression over the `neighbors`.
 fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_weight: f64, h: f64) -> f64 {
     let (mut norm, mut s, mut k, mut ss, mut sk) = (own_weight, 0.0, 0.0, 0.0, 0.0);
     for (w, there) in neighbors {
@@ -155,11 +155,11 @@ fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_we
     (here.way * slope).clamp(-LARGEST_CORRECTION / h, LARGEST_CORRECTION / h)
 }
 
-/// The curvature without the noise of single fits: S κ + g (S κ − S² κ), S the average over fluid particles that have one.
+/// The curvature without the noise of single fits: S κ + g (S κ − S² κ), S the average over fluid particles with a curvature.
 ///
-/// The second term gives back what averages take from resolved waves (van Cittert 1931): to fourth order in kh those of S, of the
-/// fits and of the smoothed color. A curvature of an interface at rest stays as it is, up to a wall too: `rest(a, b)` in 1/m is what
-/// it is greater by at a than at b.
+/// The second term compensates for the attenuation of resolved waves (van Cittert 1931), to fourth order in kh, by S, the fits and the
+/// smoothed color. The curvature of an interface at rest is unchanged, also at a wall: `rest(a, b)` in 1/m is the difference at rest of the
+/// curvature at a from that at b.
 fn smoothed(
     curvature: Vec<f64>,
     Neighborhood { pairs, images }: &Neighborhood,
@@ -178,7 +178,7 @@ fn smoothed(
     once.iter().zip(&twice).map(|(once, twice)| once + DECONVOLUTION * (once - twice)).collect()
 }
 
-/// Σ_b W κ_b/Σ_b W over the neighbors of a that have a curvature, and over a itself where it has its `own` κ (1/m). NaN where there is none.
+/// Σ_b W κ_b/Σ_b W over the neighbors of a with a curvature, and a itself with its `own` κ (1/m) if given. NaN if there is none.
 fn average_at(a: usize, pairs: &Pairs, own: Option<f64>, curvature: impl Fn(usize) -> f64) -> f64 {
     let own = own.map_or((0.0, 0.0), |kappa| (pairs.w_self * kappa, pairs.w_self));
     let (sum, norm) = pairs.of(a).fold(own, |(sum, norm), ab| {
@@ -192,8 +192,8 @@ fn average_at(a: usize, pairs: &Pairs, own: Option<f64>, curvature: impl Fn(usiz
 mod tests {
     use super::*;
 
-    /// The mean on the way s of a curvature 3 + 2s.
-    fn held(way: f64) -> Turning {
+    /// The mean over the arc length s of the curvature 3 + 2s.
+    fn constrained(way: f64) -> Turning {
         Turning { mean: 3.0 + way, way, share: 1.0, side: 1.0, line: Vec2::zeros() }
     }
 
@@ -201,13 +201,13 @@ mod tests {
     fn the_curvature_at_the_end_of_a_way_is_found_from_the_means_of_ways() {
         const H: f64 = 0.15;
         for way in [0.0, 0.1, 0.3] {
-            let neighbors = (0..10).map(|i| (1.0, held(0.05 * f64::from(i))));
-            let more = turned(held(way), neighbors, 1.0, H);
+            let neighbors = (0..10).map(|i| (1.0, constrained(0.05 * f64::from(i))));
+            let more = turned(constrained(way), neighbors, 1.0, H);
             assert!((more - way).abs() < 0.03 * way + 1e-12, "{more} at {way}");
         }
-        // At rest nothing changes; a single way tells no slope.
-        let rest = |way: f64| Turning { mean: 3.0, ..held(way) };
+        // No correction at rest; a single arc length has no slope.
+        let rest = |way: f64| Turning { mean: 3.0, ..constrained(way) };
         assert_eq!(turned(rest(0.2), (0..10).map(|i| (1.0, rest(0.05 * f64::from(i)))), 1.0, H), 0.0);
-        assert_eq!(turned(held(0.2), std::iter::empty(), 1.0, H), 0.0);
+        assert_eq!(turned(constrained(0.2), std::iter::empty(), 1.0, H), 0.0);
     }
 }

@@ -1,12 +1,12 @@
-//! The two forms of the surface force, behind one seam.
+//! The two forms of the surface force, with a common interface.
 //!
-//! [`SurfaceForce::Csf`](crate::case::SurfaceForce) is the paper's: a volume force in a band, with the contact line force beside it. In
-//! [`SurfaceForce::PressureJump`](crate::case::SurfaceForce) the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
-//! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
+//! [`SurfaceForce::Csf`](crate::case::SurfaceForce) is that of the paper: a volume force in a band, with the contact line force. In
+//! [`SurfaceForce::PressureJump`](crate::case::SurfaceForce) the jump σκ enters the pressure differences across the interface, as in the ghost
+//! fluid method (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law gives the angle at which the interface meets the wall.
 //!
-//! A chain, each link of which knows those before it: `points` of the interface between particles; `stencils`, the points around one place;
+//! Each of these modules uses those before it: `points` of the interface between particles; `stencils`, the points around a position;
 //! `contact_points`, where the interface meets a wall; `detected_lines`, its contact lines; `pinned_lines`, those at edges of walls; `fit`, its
-//! curvature; `jump`, which carries that to the pairs. The geometry of the circles is in [`interface`](crate::interface).
+//! curvature; `jump`, which applies it to pairs. The geometry of the circles is in [`interface`](crate::interface).
 
 mod contact_points;
 pub(crate) mod continuum;
@@ -29,7 +29,7 @@ use crate::sph::terms::color;
 use crate::sph::view::View;
 use crate::sph::wetting::lines::TrackedLine;
 
-/// The fields of the interface [Huber2013, Eqs. 18-23], and the contact lines now.
+/// The fields of the interface [Huber2013, Eqs. 18-23], and the present contact lines.
 pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec<TrackedLine>) {
     let (Neighborhood { pairs, images }, method) = (flow.neighborhood, &flow.config.method);
     let (n, moving, phase) = (flow.state.particles.len(), flow.state.particles.moving(), &flow.state.particles.phase);
@@ -38,7 +38,7 @@ pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec
     if method.tension == 0.0 {
         (found.color, found.normal, found.curvature) = (sharp, images.field(Vec::new()), vec![0.0; n]);
     } else {
-        // Both fluids are within the support; also true of walls, which have no color of their own.
+        // Whether both fluids are within the support; also true on walls, which have no color of their own.
         let mixed = values(n, |a| {
             let is_other = |b: usize| b < moving && phase[b] != phase[a];
             a >= moving || pairs.of(a).any(|ab| is_other(images.source(ab.b)))
@@ -53,7 +53,7 @@ pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec
     (found, lines)
 }
 
-/// The slip length in m of the wall next to each fluid particle: near contact `lines` that of lines.
+/// The slip length in m of the wall next to each fluid particle, with that of contact lines near the `lines`.
 fn slip_lengths(flow: &View<BulkFields>, lines: &[TrackedLine]) -> Vec<f64> {
     let (particles, config) = (&flow.state.particles, flow.config);
     values(particles.fluids, |a| {

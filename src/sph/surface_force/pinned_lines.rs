@@ -1,9 +1,9 @@
 //! Contact lines at edges and tight bends of walls.
 //!
-//! An edge is the limit of a round one. Its normals are a fan, and a line can stand there at any angle between the contact angles of
-//! both faces, as one normal of the fan makes the contact angle with the interface (Gibbs; Oliver, Huh and Mason 1977). Circle fits that
-//! look up the wall each for itself find now this face and now that one. So each line near a bend is placed once, by all of its points:
-//! where on the wall, and to which normal, does the interface have its angle? The fits around it meet that tangent.
+//! An edge is the limit of a rounded one. Its normals form a fan, and a line can be at rest there at any angle between the contact angles
+//! on both faces, as one normal of the fan makes the contact angle with the interface (Gibbs; Oliver, Huh and Mason 1977). Separate circle
+//! fits would find sometimes one face and sometimes the other. So for each line near a bend the position on the wall and the normal at which
+//! the interface has its contact angle are determined once, from all of its points; the fits around it use that tangent.
 
 use crate::interface::weighted_circle::{WallFrame, fit_from_contact};
 use crate::math::{Vec2, perpendicular};
@@ -11,33 +11,33 @@ use crate::sph::surface_force::contact_points::angle_pulled;
 use crate::sph::surface_force::detected_lines::InterfaceLine;
 use crate::sph::wetting::lines::DetectedLine;
 
-/// A wall bends at a line where the normals this far to both sides of it, over h, differ by more than `BENT`.
+/// A wall bends at a line if the normals at this distance on both sides of it, over h, differ by more than `BENT`.
 const NEIGHBORHOOD: f64 = 1.0;
 
 /// Cosine of 45 degrees.
 const BENT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Steps of the search for the place of a line; it ends before where there is one.
+/// Maximum number of steps of the search for the position of a line.
 const STEPS: usize = 16;
 
-/// Places nearer to each other than this, over h, are the same.
-const SAME_PLACE: f64 = 1e-6;
+/// Tolerance of the position, over h.
+const SAME_POSITION: f64 = 1e-6;
 
-/// Places are searched so far above the wall, over dx, where those around an edge differ.
+/// Positions are interpolated at this height above the wall, over dx, where those around an edge differ.
 const LIFT: f64 = 0.5;
 
-/// A contact line where its wall bends.
+/// A contact line at a bend of its wall.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PinnedLine {
-    /// A place in m on the tangent of the wall that the interface meets.
+    /// A point in m on the tangent of the wall where the interface meets it.
     pub(super) place: Vec2,
     /// The wall normal of the tangent.
     pub(super) normal: Vec2,
-    /// 1 where ν_ns lies to the left of the normal, else -1.
+    /// 1 if ν_ns points to the left of the normal, else -1.
     pub(super) side: f64,
 }
 
-/// A place of the wall where the interface may end, relative to the line.
+/// A candidate for the end of the interface on the wall, relative to the line.
 #[derive(Clone, Copy)]
 struct End {
     contact: Vec2,
@@ -45,31 +45,31 @@ struct End {
 }
 
 impl InterfaceLine<'_> {
-    /// Where the interface meets the wall at the `angle` (rad), if the wall bends there.
+    /// The pinned line where the interface meets the wall at the `angle` (rad), `None` if the wall does not bend there.
     pub(crate) fn pinned(&self, angle: f64) -> Option<PinnedLine> {
         let (interface, place) = (self.interface, self.place);
-        let normal_at = |way: f64| (interface.wall)(place + way * interface.h * self.outward()).1;
+        let normal_at = |s: f64| (interface.wall)(place + s * interface.h * self.outward()).1;
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {
             return None;
         }
         let near = interface.at_end_of_step(&self.near);
         let mut end = End { contact: Vec2::zeros(), normal: self.normal };
-        // The nearest places from which the line would go on outwards, and from which it would come back, with how far.
+        // Bracket: the closest positions from which the line would move outwards and inwards, with the distances.
         let mut between: [Option<(End, f64)>; 2] = [None; 2];
         for _ in 0..STEPS {
             let wall = WallFrame { outward: self.side * perpendicular(end.normal), normal: end.normal };
             let pulled = angle_pulled(self.into_wetting, wall, angle);
-            let (_, way) = fit_from_contact(&near, end.contact, wall, pulled)?;
-            if way.abs() < SAME_PLACE * interface.h {
+            let (_, shift) = fit_from_contact(&near, end.contact, wall, pulled)?;
+            if shift.abs() < SAME_POSITION * interface.h {
                 break;
             }
-            between[usize::from(way < 0.0)] = Some((end, way.abs()));
+            between[usize::from(shift < 0.0)] = Some((end, shift.abs()));
             let next = match between {
                 [Some((inner, out)), Some((outer, back))] => {
-                    let share = (out / (out + back)).clamp(0.1, 0.9);
-                    (1.0 - share) * self.above(&inner) + share * self.above(&outer)
+                    let t = (out / (out + back)).clamp(0.1, 0.9);
+                    (1.0 - t) * self.above(&inner) + t * self.above(&outer)
                 }
-                _ => end.contact + way.clamp(-interface.h, interface.h) * wall.outward,
+                _ => end.contact + shift.clamp(-interface.h, interface.h) * wall.outward,
             };
             let (distance, normal) = (interface.wall)(place + next);
             end = End { contact: next - distance * normal, normal };
@@ -77,7 +77,7 @@ impl InterfaceLine<'_> {
         Some(PinnedLine { place: interface.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
     }
 
-    /// A place above an end from which the wall is found again with the same normal.
+    /// A point above an end, from which the wall query returns the same normal.
     fn above(&self, end: &End) -> Vec2 {
         end.contact + LIFT * self.interface.spacing * end.normal
     }
@@ -108,14 +108,14 @@ mod tests {
         }
     }
 
-    /// Points of the level 1/2 of a drop of radius 1 on the level face that ends at the edge with an angle (rad) to that face.
+    /// Points of the level 1/2 of a drop of radius 1 on the horizontal face that ends at the edge with an angle (rad) to that face.
     fn drop(angle: f64) -> Vec<InterfacePoint> {
         let (center, up) = (Vec2::new(-angle.sin(), -angle.cos()), Vec2::new(-angle.cos(), angle.sin()));
         (0..400)
             .map(|i| TAU * f64::from(i) / 400.0)
             .map(|t| Vec2::new(t.cos(), t.sin()))
             .map(|n| (center + (1.0 - LINE_MOMENT * H * H) * n, -n))
-            // The rest of its circle lies in the solid, or beyond the edge.
+            // The rest of the circle is in the solid or beyond the edge.
             .filter(|(x, _)| x.dot(&up) > 0.0 && wall(*x).0 > 0.0)
             .map(|(x, normal)| {
                 let (velocity, (wall_distance, wall_normal)) = (Vec2::zeros(), wall(x));

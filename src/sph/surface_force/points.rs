@@ -1,4 +1,4 @@
-//! Points of the interface: where the smoothed color passes 1/2 between two near particles.
+//! Points of the interface, where the smoothed color crosses 1/2 between two neighboring particles.
 
 use crate::math::Vec2;
 use crate::sph::bulk::BulkFields;
@@ -7,16 +7,16 @@ use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::view::View;
 
-/// Pairs nearer than this, in units of dx, are looked at: nearest and diagonal neighbors of the lattice. Their weight falls to zero there.
+/// Pairs closer than this, in units of dx, are used: nearest and diagonal neighbors of the lattice. Their weight vanishes at this distance.
 const LINK: f64 = 1.8;
 
-/// Below this color gradient, in units of 1/h, there is no interface.
+/// Color gradient, in units of 1/h, below which there is no interface.
 const SMALLEST_GRADIENT: f64 = 0.05;
 
-/// A particle nearer to a wall than this, in units of dx, touches it.
+/// A particle closer to a wall than this, in units of dx, touches it.
 const TOUCHING: f64 = 1.2;
 
-/// The level of the smoothed color that is the interface.
+/// Level of the smoothed color at the interface.
 const LEVEL: f64 = 0.5;
 
 /// A point of the interface.
@@ -28,17 +28,17 @@ pub(crate) struct InterfacePoint {
     pub(crate) normal: Vec2,
     /// Velocity in m/s.
     pub(crate) velocity: Vec2,
-    /// Distance to the wall in m, infinite where none is in reach.
+    /// Distance to the wall in m, infinite if none is in reach.
     pub(crate) wall_distance: f64,
-    /// Wall normal into the fluid, zero where none is in reach.
+    /// Wall normal into the fluid, zero if none is in reach.
     pub(crate) wall_normal: Vec2,
-    /// Whether both phases touch the wall in the neighborhood: a film between interface and wall bears no contact line.
+    /// Whether both phases touch the wall in the neighborhood: with a film between interface and wall there is no contact line.
     pub(crate) touches: bool,
-    /// Weight in means and fits: it vanishes before the two particles are so far apart that the point does.
+    /// Weight in means and fits, which vanishes continuously with the distance of the two particles.
     pub(crate) weight: f64,
 }
 
-/// Lengths of the discretization.
+/// Length scales of the discretization.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Resolution {
     /// Spacing of the particles dx in m.
@@ -47,8 +47,8 @@ pub(crate) struct Resolution {
     pub(crate) h: f64,
 }
 
-/// All interface points between moving particles, with images near mirrors, from the smoothed color and its consistent `gradient` in 1/m; `near` are
-/// moving particles whose smoothed color, or that of one of their neighbors, is neither 0 nor 1.
+/// All interface points between moving particles, with images near mirrors, from the smoothed color and its consistent `gradient` in 1/m; `near`
+/// marks moving particles whose smoothed color, or that of a neighbor, is neither 0 nor 1.
 pub(crate) fn interface_points(
     flow: &View<BulkFields>,
     color: &Field<f64>,
@@ -65,7 +65,7 @@ pub(crate) fn interface_points(
         for ab in pairs.of(a) {
             let source = images.source(ab.b);
             let is_image = source != ab.b;
-            // Each pair of particles once; a particle and an image from the particle's side.
+            // Each pair once, pairs with an image from the particle.
             if source >= moving || (!is_image && ab.b < a) {
                 continue;
             }
@@ -92,7 +92,7 @@ pub(crate) fn interface_points(
     points
 }
 
-/// Whether particles of both phases, by the smoothed color, which is blind to isolated particles, touch the wall around `a` or `b`.
+/// Whether particles of both phases touch the wall around `a` or `b`, by the smoothed color, which filters isolated particles.
 fn both_touch(flow: &View<BulkFields>, color: &[f64], a: usize, b: usize) -> bool {
     let (Neighborhood { pairs, images }, spacing) = (flow.neighborhood, flow.config.method.spacing);
     let phase = |i: usize| {
@@ -110,13 +110,13 @@ fn both_touch(flow: &View<BulkFields>, color: &[f64], a: usize, b: usize) -> boo
     })
 }
 
-/// Wall distance and normal at the share `f` of the way from a to b.
+/// Wall distance and normal interpolated between a and b at the fraction `f`.
 fn wall_between(fields: &BulkFields, a: usize, b: usize, f: f64) -> (f64, Vec2) {
     let (d_a, d_b) = (fields.wall_distance[a], fields.wall_distance[b]);
     match (d_a.is_finite(), d_b.is_finite()) {
         (true, true) => {
             let normal = (1.0 - f) * fields.wall_normal[a] + f * fields.wall_normal[b];
-            // Opposite walls cancel: take the nearer one.
+            // The normals of opposite walls cancel: use the nearer one.
             let nearer = if d_a < d_b { fields.wall_normal[a] } else { fields.wall_normal[b] };
             ((1.0 - f) * d_a + f * d_b, normal.try_normalize(0.5).unwrap_or(nearer))
         }

@@ -1,4 +1,4 @@
-//! The surface force as a jump of the pressure.
+//! The surface force as a pressure jump.
 
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
@@ -17,8 +17,8 @@ use crate::sph::view::View;
 use crate::sph::wetting::lines::{LINE_REACH, TrackedLine, nearest};
 
 impl View<'_, BulkFields> {
-    /// Sides and curvatures for the pressure jump, fitted where none is `given` (1/m); the normal is the consistent gradient of the smoothed `color`.
-    /// `sharp` is the color of each particle and image, 0 or 1; `mixed` tells which of them have both fluids within the support.
+    /// Sides and curvatures for the pressure jump, fitted if no curvature is `given` (1/m); the normal is the consistent gradient of the smoothed
+    /// `color`. `sharp` is the color of each particle and image, 0 or 1; `mixed` marks those with both fluids within the support.
     pub(super) fn with_jump(
         &self,
         sharp: Field<f64>,
@@ -43,12 +43,12 @@ impl View<'_, BulkFields> {
         let interface = Interface { step: self.state.last_dt, ..at_rest };
         let (mut lines, mut pinned) = (Vec::new(), Vec::new());
         if method.wetting.is_some() {
-            let seen = interface.lines();
-            lines = self.followed(&seen);
-            pinned.extend(seen.iter().zip(&lines).filter_map(|(line, now)| line.pinned(now.angle)));
+            let detected = interface.lines();
+            lines = self.followed(&detected);
+            pinned.extend(detected.iter().zip(&lines).filter_map(|(line, now)| line.pinned(now.angle)));
         }
         let angle_at = |x: Vec2, outward: Vec2| {
-            // Without a model this is not asked for.
+            // Not used without a wetting model.
             let Some(model) = self.config.wall_properties.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
             let line =
                 if model.is_static() { None } else { nearest(&lines, domain, x, outward, LINE_REACH * resolution.h) };

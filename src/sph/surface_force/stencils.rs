@@ -1,7 +1,7 @@
-//! The interface as points, and stencils: the points around one place, and where they would lie for a fit of one circle.
+//! The interface as points, and stencils: the points around a position, corrected for the fit of a circle.
 //!
-//! The level 1/2 of the smoothed color is drawn towards the center of curvature by h²κ/7 (`LINE_MOMENT`). A gradient of the curvature
-//! bends the interface away from its circle by the deflection w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.
+//! The level 1/2 of the smoothed color is displaced towards the center of curvature by h²κ/7 (`LINE_MOMENT`). A gradient of the curvature
+//! deflects the interface from its circle by w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.
 
 use crate::interface::weighted_circle::{WeightedCircle, WeightedPoint};
 use crate::math::{LINE_MOMENT, Vec2};
@@ -12,17 +12,17 @@ use crate::sph::surface_force::points::{InterfacePoint, Resolution};
 /// Radius r of the stencil of a fit over h.
 pub(crate) const STENCIL_RADIUS: f64 = 3.0;
 
-/// A point at the distance d has the weight (1 − d²/r²) to this power. Two sees waves of two to three spacings upside down.
+/// A point at the distance d has the weight (1 − d²/r²) to this power. With a power of two, waves of two to three spacings change sign.
 pub(crate) const SMOOTHNESS: i32 = 6;
 
-/// A stencil is moved to the closest point of its particle so many times: by the circle around the nearest point, and by that around the
+/// Number of times a stencil is moved to the closest point of its particle: by the circle around the nearest point, then by that around the
 /// closest point found.
 const CLOSEST_POINT_PASSES: usize = 2;
 
-/// Squared distances that differ by less than this share are equal.
+/// Squared distances with a smaller relative difference count as equal.
 const TIE: f64 = 1e-9;
 
-/// Points whose normal turns away more than this (cosine) belong to another piece of interface.
+/// Cosine between normals below which a point belongs to another part of the interface.
 const SAME_PIECE: f64 = 0.3;
 
 /// Largest curvature over 1/h: smaller drops are not resolved.
@@ -31,7 +31,7 @@ const LARGEST_CURVATURE: f64 = 0.75;
 /// Signed distance in m and normal of the wall at a point.
 pub(crate) type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
 
-/// The interface as points, with what fits to them need to know.
+/// The interface as points, with the data for fits.
 pub(crate) struct Interface<'a> {
     pub(super) points: &'a [InterfacePoint],
     pub(super) cells: Cells,
@@ -39,31 +39,31 @@ pub(crate) struct Interface<'a> {
     pub(super) spacing: f64,
     /// ∇κ in 1/m² of an interface at rest.
     pub(super) gradient: Vec2,
-    /// Length of the coming step in s, about.
+    /// Approximate length of the next step in s.
     pub(super) step: f64,
     pub(super) wall: &'a Wall<'a>,
     pub(super) domain: &'a Domain,
 }
 
 impl<'a> Interface<'a> {
-    /// Sorts the points.
+    /// The interface through `points`, sorted into cells.
     pub(crate) fn new(
         points: &'a [InterfacePoint],
         domain: &'a Domain,
         Resolution { spacing, h }: Resolution,
         wall: &'a Wall<'a>,
     ) -> Self {
-        let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
-        let cells = Cells::build(&places, domain, STENCIL_RADIUS * h);
+        let positions: Vec<Vec2> = points.iter().map(|p| p.x).collect();
+        let cells = Cells::build(&positions, domain, STENCIL_RADIUS * h);
         Self { points, cells, h, spacing, gradient: Vec2::zeros(), step: 0.0, wall, domain }
     }
 
-    /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
+    /// The interface under gravity, with the gradient (1/m²) of its curvature at rest.
     pub(crate) fn under(self, gradient: Vec2) -> Self {
         Self { gradient, ..self }
     }
 
-    /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
+    /// Index of the nearest point and x − x_p; all equidistant ones, so that a symmetric flow remains symmetric.
     pub(super) fn nearest(&self, x: Vec2) -> Vec<(usize, Vec2)> {
         let mut least = (STENCIL_RADIUS * self.h).powi(2);
         let mut nearest = Vec::new();
@@ -79,9 +79,9 @@ impl<'a> Interface<'a> {
 
     /// The closest point of `x` (m) on the interface near the point `nearest` of it, and the stencil there.
     ///
-    /// The closest point moves as x does. The nearest point does not: particles inside see the dents of a rough interface and those outside its
-    /// bumps, so that the curvatures on both sides of one place differ. Near a wall the interface ends, and a closest point may lie behind the
-    /// wall or at the other line of a small base: there the stencil stays around the nearest point.
+    /// The closest point moves continuously with x. The nearest point does not: on a rough interface it is in the dents for particles inside and on
+    /// the bumps for those outside, so that the curvatures on the two sides differ. Near a wall the interface ends, and a closest point may lie
+    /// behind the wall or at the other line of a small base: there the stencil remains around the nearest point.
     pub(super) fn stencil_at_closest_point(
         &self,
         nearest: InterfacePoint,
@@ -102,7 +102,7 @@ impl<'a> Interface<'a> {
         (point, near)
     }
 
-    /// The points of the piece with about the unit `normal` within the stencil around `x_p` (m).
+    /// The points of the part of the interface with about the unit `normal` within the stencil around `x_p` (m).
     pub(super) fn stencil(&self, normal: Vec2, x_p: Vec2) -> Vec<WeightedPoint> {
         let reach2 = (STENCIL_RADIUS * self.h).powi(2);
         let mut near = Vec::new();
@@ -120,7 +120,7 @@ impl<'a> Interface<'a> {
         near
     }
 
-    /// The circle through a stencil with about the unit `normal`, free of walls.
+    /// The unconstrained circle through a stencil with about the unit `normal`.
     pub(super) fn circle(&self, near: &[WeightedPoint], normal: Vec2) -> Option<WeightedCircle> {
         WeightedCircle::through(&self.of_one_curvature(near, Vec2::zeros()), normal)
     }
@@ -129,11 +129,11 @@ impl<'a> Interface<'a> {
     /// in the middle of the stencil.
     pub(super) fn on_interface(&self, near: &[WeightedPoint], kappa: f64) -> Vec<WeightedPoint> {
         let limit = self.limit();
-        let drawn = |x: Vec2| LINE_MOMENT * self.h * self.h * (kappa + self.gradient.dot(&x)).clamp(-limit, limit);
-        near.iter().map(|q| WeightedPoint { x: q.x - drawn(q.x) * self.points[q.index].normal, ..*q }).collect()
+        let offset = |x: Vec2| LINE_MOMENT * self.h * self.h * (kappa + self.gradient.dot(&x)).clamp(-limit, limit);
+        near.iter().map(|q| WeightedPoint { x: q.x - offset(q.x) * self.points[q.index].normal, ..*q }).collect()
     }
 
-    /// The points of a stencil where the interface carries them by the end of the step.
+    /// The points of a stencil advected with the interface to the end of the step.
     pub(super) fn at_end_of_step(&self, near: &[WeightedPoint]) -> Vec<WeightedPoint> {
         let moved = |q: &WeightedPoint| {
             let point = &self.points[q.index];
@@ -142,7 +142,7 @@ impl<'a> Interface<'a> {
         near.iter().map(moved).collect()
     }
 
-    /// The points of a stencil as they would lie if the interface had everywhere the curvature that it has at `origin`.
+    /// The points of a stencil corrected to an interface with the uniform curvature that it has at `origin`.
     pub(super) fn of_one_curvature(&self, near: &[WeightedPoint], origin: Vec2) -> Vec<WeightedPoint> {
         near.iter()
             .map(|q| {

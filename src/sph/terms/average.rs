@@ -4,9 +4,9 @@ use std::ops::{Add, Div, Mul};
 
 use crate::sph::pairs::Pairs;
 
-/// ⟨f⟩_a = Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard); f_a where no fluid is near.
+/// ⟨f⟩_a = Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid, including the particle itself (Shepard); f_a where no fluid is near.
 ///
-/// `fluid_volume` in m², 0 on walls; it and `field` over particles and images.
+/// `fluid_volume` in m², 0 on walls; both `fluid_volume` and `field` over particles and images.
 pub(crate) fn over_fluid<T>(a: usize, pairs: &Pairs, fluid_volume: &[f64], field: &[T]) -> T
 where
     T: Copy + Add<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,

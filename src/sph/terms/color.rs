@@ -5,13 +5,13 @@ use crate::sph::pairs::Pairs;
 use crate::sph::parallel::values;
 use crate::sph::terms::average;
 
-/// The moment matrix is 1 inside the fluid and about 1/4 in a right corner; below this its inverse is not to be trusted.
+/// Determinant of the moment matrix, 1 inside the fluid and about 1/4 in a right corner, below which its inverse is unreliable.
 const SMALLEST_DETERMINANT: f64 = 0.05;
 
-/// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard average).
+/// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, including the particle itself (Shepard average).
 ///
-/// Smoothing once before the gradient brings the curvature's error down; the paper is silent on it. Particles that are not `mixed`, which see
-/// one color only, keep theirs.
+/// Smoothing once before the gradient reduces the error of the curvature; the paper does not mention it. Particles that are not `mixed`, with
+/// only one color in reach, keep theirs.
 pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], mixed: &[bool]) -> Vec<f64> {
     values(mixed.len(), |a| if mixed[a] { average::over_fluid(a, pairs, fluid_volume, color) } else { color[a] })
 }
@@ -23,8 +23,8 @@ pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], count:
 
 /// The gradient of Eq. (18) made exact for linear fields: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
 ///
-/// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is near singular the plain gradient is kept.
-/// `r_ab(a, b)` in m. Zero where a particle is not `near` the interface.
+/// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is nearly singular the gradient is not corrected.
+/// `r_ab(a, b)` in m. Zero if a particle is not `near` the interface.
 pub(crate) fn consistent_gradient(
     pairs: &Pairs,
     fluid_volume: &[f64],

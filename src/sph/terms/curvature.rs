@@ -4,10 +4,10 @@ use crate::math::Vec2;
 use crate::sph::pairs::Pairs;
 use crate::sph::parallel::values;
 
-/// Below this |n| in units of 1/h a normal is noise [Morris2000, section 3.3].
+/// |n| in units of 1/h below which a normal is noise [Morris2000, section 3.3].
 const SMALLEST_NORMAL: f64 = 0.01;
 
-/// n̂_a = n_a/|n_a| where |n_a| > 0.01/h, else zero: not valid. `h` in m.
+/// n̂_a = n_a/|n_a| if |n_a| > 0.01/h, else zero, which means not valid. `h` in m.
 pub fn unit_normal(normal: &[Vec2], h: f64) -> Vec<Vec2> {
     values(normal.len(), |a| {
         let length = normal[a].norm();

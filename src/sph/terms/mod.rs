@@ -1,4 +1,4 @@
-//! The equations of the paper, one function each; a sum over pairs reads as it is printed.
+//! The equations of the paper, one function each, with sums over pairs as printed.
 //!
 //! Fields are slices with one entry per particle and image. Where the paper's sum runs over fluid particles only, the
 //! function takes `fluid_volume`: V_b on fluid, 0 on walls.

@@ -1,12 +1,12 @@
 //! Interface sharpening: moves back single particles that an advancing or receding interface leaves in the other phase.
 //!
-//! Nothing in the equations brings them back: the smoothed color does not see a particle alone, and a wall that holds the
-//! first layer of particles leaves a trail of them behind a receding contact line. Like the compression of the color
-//! function in volume-of-fluid codes, a drift across the interface keeps the phases apart; it is zero wherever a particle
-//! has its own kind around it, so an interface at rest does not feel it.
+//! Nothing in the equations returns them: the smoothed color does not resolve a single particle, and the no-slip first
+//! layer of particles on a wall leaves a trail of them behind a receding contact line. As the compression of the color
+//! function in volume-of-fluid codes, a drift across the interface keeps the phases apart; it vanishes for particles
+//! surrounded by their own phase, so that it does not affect an interface at rest.
 //!
-//! A heavy phase beside or above a light one is kept in by the surface tension, but the curvature sees nothing shorter than its fit:
-//! single particles would fall out of the interface one by one. There, and there only, particles that stand out of the first layer go back too.
+//! Surface tension retains a heavy phase beside or above a light one, but the curvature does not resolve lengths below its fit: single particles
+//! would fall out of the interface one by one. Only there, particles that protrude from the first layer are moved back too.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -14,24 +14,24 @@ use crate::math::Vec2;
 use crate::sph::pairs::Pairs;
 use crate::sph::parallel::values;
 
-/// A particle with a smaller share of its own kind among its neighbors is isolated. The first layer of a flat interface
-/// has one half, a particle that stands out of it by dx about a quarter.
+/// A particle with a smaller fraction of its own phase among its neighbors is isolated. The first layer of a flat interface
+/// has one half, a particle that protrudes from it by dx about a quarter.
 const FEW: f64 = 0.2;
 
-/// Largest speed of isolated particles over the capillary speed: a few times that of the contact lines which leave them.
+/// Largest speed of isolated particles over the capillary speed: a few times that of the contact lines that leave them behind.
 const SPEED: f64 = 0.2;
 
-/// Where the body force pulls a phase out through its interface, a particle with a smaller share than this goes back: a little
+/// Where the body force pulls a phase out through its interface, particles with a smaller fraction than this are moved back: slightly
 /// less than that of the first layer of a flat interface.
 const FIRST_LAYER: f64 = 0.45;
 
 /// Speed of such particles over √(g h): twice the speed at which a heavy layer of the thickness h falls out of a light one.
 const SAG: f64 = 2.0;
 
-/// Below this color gradient, in units of 1/h, no interface is in reach to go back to.
+/// Color gradient, in units of 1/h, below which no interface is in reach.
 const SMALLEST_GRADIENT: f64 = 0.02;
 
-/// What decides which particles are isolated; slices over particles and images, the wall distance over fluid particles.
+/// Input of the sharpening; slices over particles and images, wall distance and normal over fluid particles.
 pub(crate) struct Sharpening<'a> {
     /// Side of the interface: 1 in the wetting phase, 0 in the other.
     pub(crate) side: &'a [f64],
@@ -39,18 +39,18 @@ pub(crate) struct Sharpening<'a> {
     pub(crate) normal: &'a [Vec2],
     /// V_a in m² on fluid, 0 on walls.
     pub(crate) fluid_volume: &'a [f64],
-    /// Wall distance in m, infinite where no wall is in reach.
+    /// Wall distance in m, infinite if no wall is in reach.
     pub(crate) wall_distance: &'a [f64],
-    /// Wall normal at fluid particles, zero where no wall is in reach.
+    /// Wall normal at fluid particles, zero if no wall is in reach.
     pub(crate) wall_normal: &'a [Vec2],
-    /// Density of the wetting less that of the other phase over their mean, times the body force per mass, in m/s².
+    /// Density difference of the wetting and the other phase over their mean, times the body force per mass, in m/s².
     pub(crate) weight: Vec2,
-    /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where there is none.
+    /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN if there is none.
     pub(crate) wall_hysteresis: &'a [[f64; 2]],
 }
 
 impl Sharpening<'_> {
-    /// Adds to `shift` (m) the way of isolated particles across the interface. `h` in m, capillary `speed` in m/s, `dt` in s.
+    /// Adds the displacement of isolated particles across the interface to `shift` (m). `h` in m, capillary `speed` in m/s, `dt` in s.
     pub(crate) fn displace(&self, pairs: &Pairs, h: f64, speed: f64, dt: f64, shift: &mut [Vec2]) {
         let back = values(shift.len(), |a| {
             let n = self.normal[a];
@@ -62,7 +62,7 @@ impl Sharpening<'_> {
             let n_hat = n.normalize();
             let into_own_phase = if self.side[a] > 0.5 { n_hat } else { -n_hat };
             let isolated = SPEED * speed * (1.0 - share / FEW).max(0.0);
-            // Both phases are pulled across the interface by the same force: the heavy one out, the light one in.
+            // The same force pulls both phases across the interface: the heavy one out, the light one in.
             let pull = -self.weight.dot(&n_hat);
             let sag = SAG * (pull.max(0.0) * h).sqrt() * (1.0 - share / FIRST_LAYER).max(0.0);
             dt * isolated.max(sag) * self.off_the_wall(a, h, into_own_phase)
@@ -70,7 +70,7 @@ impl Sharpening<'_> {
         shift.iter_mut().zip(&back).for_each(|(shift, back)| *shift += back);
     }
 
-    /// `direction` without its part into a wall nearer than `h` (m): nothing would bring a particle that is pressed into the wall back.
+    /// `direction` without its component into a wall closer than `h` (m): nothing would return a particle pressed into the wall.
     fn off_the_wall(&self, a: usize, h: f64, direction: Vec2) -> Vec2 {
         if self.wall_distance[a] < h {
             direction - direction.dot(&self.wall_normal[a]).min(0.0) * self.wall_normal[a]
@@ -79,14 +79,14 @@ impl Sharpening<'_> {
         }
     }
 
-    /// What a share of one half becomes in the thin wedge of its phase at a wall, over one half.
+    /// Fraction of own-phase neighbors in the thin wedge of a phase at a wall, over the one half of a flat interface.
     fn wedge(&self, a: usize) -> f64 {
         let [receding, advancing] = self.wall_hysteresis[a];
         let own = if self.side[a] > 0.5 { receding } else { PI - advancing };
         if own.is_nan() { 1.0 } else { (own / FRAC_PI_2).clamp(f64::EPSILON, 1.0) }
     }
 
-    /// Σ V W over fluid neighbors of the same kind over that of all fluid neighbors, the particle itself left out.
+    /// Σ V W over fluid neighbors of the same phase over that of all fluid neighbors, excluding the particle itself.
     fn share_of_own_kind(&self, pairs: &Pairs, a: usize) -> f64 {
         let (own, all) = pairs.of(a).fold((0.0, 0.0), |(own, all), ab| {
             let weight = self.fluid_volume[ab.b] * ab.w;
@@ -105,7 +105,7 @@ mod tests {
 
     const H: f64 = 1.5;
 
-    /// A lattice of spacing 1 whose left half is the wetting phase; `swapped` is the place of one particle of the wrong kind.
+    /// Shifts on a lattice of spacing 1 whose left half is the wetting phase; `swapped` is the position of a particle of the wrong phase.
     fn shifts(swapped: Option<Vec2>, weight: Vec2) -> Vec<(Vec2, Vec2)> {
         let bounds = Bounds { min: Vec2::repeat(-8.0), max: Vec2::repeat(8.0) };
         let domain = Domain::new(bounds, [false; 2], vec![]);
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_particle_that_stands_out_goes_back_where_its_phase_would_fall_out_only() {
-        // The place next to the interface in the other phase.
+        // Next to the interface, in the other phase.
         let standing_out = Vec2::new(0.5, 0.5);
         let shift = |weight: Vec2| {
             let found = shifts(Some(standing_out), weight).into_iter().find(|(x, _)| *x == standing_out);

@@ -1,4 +1,4 @@
-//! Particle shifting: particles drift from crowded to empty places and apart from near ones, their velocity is carried along.
+//! Particle shifting: particles drift from dense to sparse regions and away from close neighbors, with the velocity corrected accordingly.
 //!
 //! After Xu et al. 2009 and Lind et al. 2012, with the coefficient of Skillen et al. 2013, which is independent of Δt.
 
@@ -8,18 +8,18 @@ use crate::sph::pairs::Pairs;
 use crate::sph::parallel::{each, values};
 use crate::sph::terms::average;
 
-/// Where the color gradient exceeds this, in units of 1/h, particles go down the concentration along the interface only.
+/// Where the color gradient exceeds this, in units of 1/h, particles are shifted down the concentration along the interface only.
 const INTERFACE: f64 = 0.05;
 
-/// A particle is shifted by at most this share of h per step.
+/// A particle is shifted by at most this fraction of h per step.
 const LARGEST_SHIFT: f64 = 0.1;
 
-/// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to where particles crowd.
+/// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to denser regions.
 pub(crate) fn concentration_gradient(pairs: &Pairs, volume: &[f64], count: usize) -> Vec<Vec2> {
     pairs.sums(count, |_, ab| volume[ab.b] * ab.grad_w)
 }
 
-/// Takes the part across the interface out of a concentration gradient, so that the interface keeps its place and shape; `normal` is
+/// Removes the component of a concentration gradient normal to the interface, so that the interface keeps its position and shape; `normal` is
 /// the color gradient in 1/m, `h` in m (method: Lind et al. 2012 at a free surface).
 pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
     for (gradient, n) in gradient.iter_mut().zip(normal) {
@@ -29,23 +29,23 @@ pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
     }
 }
 
-/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply where two are nearer than dx (after Monaghan 2000, Lind et al. 2012).
+/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply at distances below dx (after Monaghan 2000, Lind et al. 2012).
 ///
-/// Sums of ∇C can be even over particles that touch in pairs or rows; this one is not. `w_of_spacing` = W(dx) in 1/m².
+/// ∇C can vanish for particles clustered in pairs or rows; this sum does not. `w_of_spacing` = W(dx) in 1/m².
 pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacing: f64, count: usize) -> Vec<Vec2> {
     pairs.sums(count, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w)
 }
 
-/// s_a − ⟨s⟩_a with the average over the fluid around: what is left parts neighbors and moves no crowds.
+/// s_a − ⟨s⟩_a with the average over the surrounding fluid: the remainder separates neighbors without collective displacement.
 ///
-/// The mean of short pushes drives particles from strained to calm places. The pressure must then bring fluid back, by a flow that is no flow
-/// of the liquid and goes through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
+/// The mean of these short-range forces drives particles from strained regions to regions at rest. The pressure would have to return the fluid by
+/// a spurious flow, also through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
 pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push: &mut [Vec2]) {
     let all = images.reflected_field(push.to_vec());
     each(push, |a| all[a] - average::over_fluid(a, pairs, fluid_volume, &all));
 }
 
-/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `shifting_vector` is ∇C with the anti-clustering force, in 1/m, `diffusion` in m², `h` and the result in m.
+/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `shifting_vector` is ∇C with the anti-clustering force in 1/m, `diffusion` in m², `h` and result in m.
 pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec2> {
     values(shifting_vector.len(), |a| {
         let by = -diffusion * shifting_vector[a];
@@ -53,9 +53,9 @@ pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec
     })
 }
 
-/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: the velocity at the shifted place [Lind2012, Eq. 26].
+/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: for the velocity at the shifted position [Lind2012, Eq. 26].
 ///
-/// Beside a light fluid a heavy one takes hardly any of its velocity, as it takes no momentum from it; in one fluid the weight is 1.
+/// By the weight a heavy fluid takes hardly any velocity from a light one next to it, as little as momentum; within one fluid it is 1.
 pub fn carried_velocity(
     pairs: &Pairs,
     volume: &[f64],

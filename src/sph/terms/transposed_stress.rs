@@ -1,22 +1,22 @@
 //! The divergence of the transposed part of the viscous stress, ∇·(μ (∇v)ᵀ), which the form of Morris et al. 1997 lacks.
 //!
-//! With ∇·v = 0 a viscosity that is the same everywhere has none, so that μ is counted from the smaller viscosity of both fluids: the stress
-//! stands in the more viscous fluid alone. It derives from a dissipation,
+//! With ∇·v = 0 it vanishes for uniform viscosity, so that only the excess Δμ over the smaller viscosity of both fluids counts: the stress is
+//! nonzero in the more viscous fluid only. It derives from a dissipation,
 //!
-//! P_a = Δμ_a (tr M D:D + (1 − tr M/2) (D:A)² − tr(G M Gᵀ)), with the gradient G of the fluid itself, D = (G + Gᵀ)/2, and the moment M of the neighbors
-//! that are not of the other fluid, 1 where these are all around. A has the principal directions of M and the values 1 and −1: D:A is twice the
-//! stretching along the interface, which neighbors on one side of it tell in full.
+//! P_a = Δμ_a (tr M D:D + (1 − tr M/2) (D:A)² − tr(G M Gᵀ)), with the velocity gradient G within the fluid, D = (G + Gᵀ)/2, and the moment M of the
+//! neighbors that are not of the other fluid, 1 if these are all around. A has the principal directions of M and the eigenvalues 1 and −1: D:A is
+//! twice the stretching along the interface, which neighbors on one side of it determine fully.
 //!
-//! This is 2Δμ D:D less Δμ ∇v:∇v, which Morris's form has. G fits the velocity differences in the weights of that form, so that away from walls
-//! both together dissipate at any velocities, and nothing where the fluid turns as a whole. The sum of the forces vanishes. Where the
-//! stress ends, at the other fluid, it bears the step of 2μ D·n there; at walls, along which it has no part, it ends without a force.
+//! This is 2Δμ D:D minus Δμ ∇v:∇v of Morris's form. G fits the velocity differences with the weights of that form, so that away from walls
+//! the sum of both dissipates for any velocities, and not at all in rigid rotation. The sum of the forces vanishes. Where the stress ends at
+//! the other fluid, it supports the step of 2μ D·n there; on walls it exerts no force.
 
 use crate::math::{Mat2, Vec2};
 use crate::sph::pairs::{Pair, Pairs};
 use crate::sph::parallel::values;
 
-/// A gradient along which the neighbors have a smaller moment than this counts less and less; moments whose principal values differ by less have
-/// less and less of a direction.
+/// Regularization: gradients along a direction with a smaller moment of the neighbors are damped, and so are the principal directions of moments
+/// whose principal values differ by less.
 const LEAST_MOMENT: f64 = 0.03;
 
 /// Largest stiffness, that of a row of particles.
@@ -38,18 +38,18 @@ pub struct TransposedStress<'a> {
 /// The neighbors of a particle of the more viscous fluid, by their moment −Σ_b V_b ∇_a W_ab ⊗ ∇_a W_ab |r_ab|²/(r_ab·∇_a W_ab).
 #[derive(Clone, Copy)]
 struct Around {
-    /// M_a: that of all but the other fluid.
+    /// M_a: moment of all neighbors not of the other fluid.
     moment: Mat2,
     /// A_a.
     directions: Mat2,
-    /// The inverse of that of the same fluid.
+    /// Inverse of the moment of the neighbors of the same fluid.
     inverse: Mat2,
-    /// How many times as stiff Morris's form must be to outweigh half of both forms.
+    /// Factor on Morris's form for which it is at least half of the sum of both forms.
     stiffness: f64,
 }
 
 impl<'a> TransposedStress<'a> {
-    /// The stress among the first `moving` particles, none where there is one viscosity.
+    /// The stress among the first `moving` particles, `None` if both viscosities are equal.
     pub fn new(
         pairs: &'a Pairs,
         volume: &'a [f64],
@@ -74,7 +74,7 @@ impl<'a> TransposedStress<'a> {
         Some(stress)
     }
 
-    /// How many times as stiff the pair a, b of Morris's form must be, so that the form with it is at least half of both together.
+    /// Factor on the pair a, b of Morris's form for which this form is at least half of the sum of both.
     pub(crate) fn stiffness(&self, a: usize, b: usize) -> f64 {
         let moving = self.around.len();
         let is_same_fluid = a < moving && b < moving && self.is_more_viscous(a) && self.is_more_viscous(b);
@@ -82,7 +82,7 @@ impl<'a> TransposedStress<'a> {
     }
 
     /// V_a Σ_b V_b (S_a + S_b)·∇_a W_ab in N/m, over neighbors of the same fluid: the force on each of the first `count` particles. `velocity`
-    /// in m/s is that of all moving ones.
+    /// in m/s of all moving particles.
     pub fn force(&self, velocity: &[Vec2], count: usize) -> Vec<Vec2> {
         let moving = self.around.len();
         let stress = values(moving, |a| self.stress(a, velocity));
@@ -94,7 +94,7 @@ impl<'a> TransposedStress<'a> {
     }
 
     /// S_a = Δμ_a (tr M D + (1 − tr M/2) (D:A) A − G M) N⁻¹ in Pa, N the moment of the same fluid: half of the derivative of P_a by G.
-    /// Δμ_a (∇v)ᵀ where neighbors are all around.
+    /// Equal to Δμ_a (∇v)ᵀ if neighbors are all around.
     fn stress(&self, a: usize, velocity: &[Vec2]) -> Mat2 {
         if !self.is_more_viscous(a) {
             return Mat2::zeros();
@@ -113,7 +113,7 @@ impl<'a> TransposedStress<'a> {
         self.viscosity[a] > self.least
     }
 
-    /// The neighbors of a particle of the more viscous fluid that are of this fluid too; images behind mirrors count as walls.
+    /// The neighbors in the same fluid of a particle of the more viscous fluid; images behind mirrors count as walls.
     fn same_fluid(&self, a: usize, moving: usize) -> impl Iterator<Item = Pair> + '_ {
         self.neighbors(a).filter(move |ab| ab.b < moving)
     }
@@ -122,7 +122,7 @@ impl<'a> TransposedStress<'a> {
     fn neighbors(&self, a: usize) -> impl Iterator<Item = Pair> + '_ {
         let pairs = self.is_more_viscous(a).then(|| self.pairs.of(a)).into_iter().flatten();
         let is_of_other = |b: usize| self.viscosity[b] > 0.0 && !self.is_more_viscous(b);
-        // At the edge of the support single precision has no slope any more.
+        // At the edge of the support the slope is zero in single precision.
         pairs.filter(move |ab| !is_of_other(ab.b) && ab.slope < 0.0)
     }
 }
@@ -135,7 +135,7 @@ impl Around {
         let inverse = same * square.try_inverse().unwrap_or_else(Mat2::zeros);
         let deviator = moment - Mat2::from_diagonal_element(0.5 * moment.trace());
         let directions = deviator * (2.0 / (deviator.norm_squared() + LEAST_MOMENT * LEAST_MOMENT)).sqrt();
-        // P is at most 2 Δμ G:G less what Morris's form has between the same fluid, and that is no less than its smallest principal value times G:G.
+        // P is at most 2 Δμ G:G minus the dissipation of Morris's form within the fluid, which is at least its smallest principal value times G:G.
         let smallest = same.symmetric_eigenvalues().min();
         let stiffness = if smallest > 1.0 / LARGEST_STIFFNESS { (1.0 / smallest).max(1.0) } else { LARGEST_STIFFNESS };
         Self { moment, directions, inverse, stiffness }

@@ -1,23 +1,23 @@
-//! Viscous acceleration: the paper's form (Szewc et al. 2012) and that of Morris et al. 1997.
+//! Viscous acceleration: the form of the paper (Szewc et al. 2012) and that of Morris et al. 1997.
 
 use crate::math::Vec2;
 use crate::sph::pairs::{Pair, Pairs};
 use crate::sph::parallel::values;
 
-/// What the viscous sums need of the particles; slices over particles and images.
+/// Fields of the viscous sums; slices over particles and images.
 pub struct Viscous<'a> {
     /// Volume V in m².
     pub volume: &'a [f64],
     /// Density ρ in kg/m³.
     pub density: &'a [f64],
-    /// Dynamic viscosity μ in Pa s; 0 on walls, which take that of the fluid particle that sees them.
+    /// Dynamic viscosity μ in Pa s; 0 on walls, which have that of the fluid particle in each pair.
     pub viscosity: &'a [f64],
 }
 
 impl Viscous<'_> {
     /// (1/ρ_a) Σ_b V_b 2 μ_ab v_ab (r_ab·∇_a W_ab)/(|r_ab|² + ζ²), μ_ab the harmonic mean [Morris1997, Eq. 22].
     ///
-    /// `v_ab(a, b)` in m/s is the velocity difference. Keeps momentum.
+    /// `v_ab(a, b)` in m/s is the velocity difference. Conserves momentum.
     pub fn morris(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<Vec2> {
         values(count, |a| pairs.of(a).map(|ab| self.friction(a, &ab) * v_ab(a, ab.b)).sum::<Vec2>() / self.density[a])
     }
@@ -31,20 +31,20 @@ impl Viscous<'_> {
             let (rho_a, rho_b) = (self.density[a], self.density[b]);
             let m_b = rho_b * self.volume[b];
             let steepness = ab.grad_w.norm_squared();
-            // Particles in one place have no direction, and their force vanishes.
+            // Coincident particles have no direction, and their force vanishes.
             let along = if steepness > 0.0 { v_ab(a, b).dot(&ab.grad_w) * ab.slope / steepness } else { 0.0 };
             8.0 * m_b * self.both_kinematic(a, b) / (rho_a + rho_b) * along * ab.grad_w
         })
     }
 
-    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b
-    /// exerts on a. The same for a and b.
+    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: the factor of v_ab in the force of b on a in Morris's form.
+    /// Symmetric in a and b.
     #[inline]
     pub(crate) fn coupling(&self, a: usize, ab: &Pair) -> f64 {
         -self.volume[a] * self.friction(a, ab)
     }
 
-    /// The same of Szewc's form, for the part of v_ab along the line of centers.
+    /// The coupling in Szewc's form, for the component of v_ab along the line of centers.
     #[inline]
     pub(crate) fn central_coupling(&self, a: usize, ab: &Pair) -> f64 {
         let b = ab.b;
@@ -53,7 +53,7 @@ impl Viscous<'_> {
         -8.0 * masses * self.both_kinematic(a, b) / (rho_a + rho_b) * ab.slope
     }
 
-    /// η_a + η_b in m²/s; walls take that of the fluid particle that sees them.
+    /// η_a + η_b in m²/s; η_b = η_a on walls.
     #[inline]
     fn both_kinematic(&self, a: usize, b: usize) -> f64 {
         let eta_a = self.viscosity[a] / self.density[a];
@@ -70,17 +70,17 @@ impl Viscous<'_> {
         })
     }
 
-    /// 2 V_b μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in kg/(m³ s), never above 0: what Morris's form multiplies v_ab with.
+    /// 2 V_b μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in kg/(m³ s), never above 0: the factor of v_ab in Morris's form.
     #[inline]
     fn friction(&self, a: usize, ab: &Pair) -> f64 {
         2.0 * self.mean_viscosity(a, ab.b) * self.volume[ab.b] * ab.slope
     }
 
-    /// μ_ab = 2 μ_a μ_b/(μ_a + μ_b) in Pa s, which keeps the shear stress even across a step of the viscosity; μ_a at walls.
+    /// μ_ab = 2 μ_a μ_b/(μ_a + μ_b) in Pa s, which keeps the shear stress continuous across a viscosity step; μ_a at walls.
     #[inline]
     fn mean_viscosity(&self, a: usize, b: usize) -> f64 {
         let (mu_a, mu_b) = (self.viscosity[a], self.viscosity[b]);
-        // Most neighbors are of one fluid, and a division costs as much as all the rest.
+        // Most neighbors are of the same fluid, and a division costs as much as all the rest.
         if mu_b == mu_a || mu_b == 0.0 { mu_a } else { 2.0 * mu_a * mu_b / (mu_a + mu_b) }
     }
 }

@@ -1,7 +1,7 @@
-//! The contact line's force in volume form, one contact line at a time [Huber2013, Eqs. 11, 21-23].
+//! The contact line force as a volume force, one contact line at a time [Huber2013, Eqs. 11, 21-23].
 //!
-//! The particles of a line are found as connected components, so that each line's force sums to f_wns (Eq. 12). [`LineDelta::Local`] needs no
-//! sum over a line: it has the integral of Eq. (22) over a straight interface put in, and holds as well as that is one.
+//! The particles of a line are connected components, so that the force of each line sums to f_wns (Eq. 12). [`LineDelta::Local`] needs no
+//! sum over a line: it uses the integral of Eq. (22) over a straight interface, and is accurate as far as the interface is straight.
 
 use crate::case::LineDelta;
 use crate::math::Vec2;
@@ -12,13 +12,13 @@ use crate::sph::neighborhood::Neighborhood;
 use crate::sph::wetting::driving_force;
 use crate::sph::wetting::lines::DetectedLine;
 
-/// Where the unit normal has less than this share along the wall, the interface runs parallel to it: no line there.
+/// Component of the unit normal along the wall below which the interface is parallel to it and has no contact line.
 const SMALLEST_TANGENT: f64 = 0.15;
 
-/// A line whose N stays below this share of ∫W ds is not a line: else one trapped particle took a whole line's force.
+/// Lines whose N is below this fraction of ∫W ds have a reduced force: else a single trapped particle would take that of a whole line.
 const SMALLEST_LINE: f64 = 0.5;
 
-/// What the line force needs of the particles; slices over fluid particles at least.
+/// Particle fields of the line force; slices over at least the fluid particles.
 pub struct LineFields<'a> {
     /// Position in m.
     pub position: &'a [Vec2],
@@ -34,15 +34,15 @@ pub struct LineFields<'a> {
     pub wall_normal: &'a [Vec2],
     /// Volume in m².
     pub volume: &'a [f64],
-    /// Weights w_a by which a line's force is shared out, as in the surface force.
+    /// Weights w_a that distribute the force of a line, as in the surface force.
     pub weight: &'a [f64],
 }
 
-/// A particle that a contact line acts on.
+/// A particle on which a contact line acts.
 #[derive(Debug, Clone, Copy)]
 struct LineParticle {
     a: usize,
-    /// ν_ns: along the wall, towards the non-wetting phase.
+    /// ν_ns: tangential to the wall, towards the non-wetting phase.
     tangent: Vec2,
     cos_alpha: f64,
     /// |n̂ − (n̂·e_s) e_s| = sin α.
@@ -61,7 +61,7 @@ pub struct LineParticles {
     integral: f64,
 }
 
-/// A contact line as the means over its particles with the weights V δ tell it.
+/// A contact line by the means over its particles with the weights V δ.
 #[derive(Debug, Clone, Copy)]
 pub struct MeanLine {
     place: Vec2,
@@ -80,7 +80,7 @@ impl DetectedLine for MeanLine {
     fn speed(&self) -> f64 {
         self.speed
     }
-    /// The mean angle, also for a line that is held: the band of the continuum force is too wide to pass through a point.
+    /// The mean angle, also for a pinned line: the band of the continuum force is too wide to pass through a point.
     fn present(&self, _: Option<Vec2>) -> f64 {
         self.present
     }
@@ -90,7 +90,7 @@ impl DetectedLine for MeanLine {
 }
 
 impl LineParticles {
-    /// The particles near walls at which the interface stands, sorted into lines.
+    /// The particles near walls where the interface meets them, sorted into lines.
     pub fn find(neighborhood: &Neighborhood, fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Self {
         let particles = line_particles(fields, kernel, fluids);
         let line_of = line_of(&particles, neighborhood, fluids);
@@ -103,7 +103,7 @@ impl LineParticles {
         Self { lines, norm, integral: kernel.line_integral() }
     }
 
-    /// What is seen of each line, small ones included, in their order.
+    /// The detected lines, including small ones, in their order.
     pub fn detected_lines(&self, fields: &LineFields, domain: &Domain) -> Vec<MeanLine> {
         self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
     }
@@ -114,15 +114,15 @@ impl LineParticles {
     pub fn line_force(&self, fields: &LineFields, delta: LineDelta, angles: &[f64], tension: f64) -> Vec<Vec2> {
         let mut force = vec![Vec2::zeros(); fields.weight.len()];
         for ((particles, norm), angle) in self.lines.iter().zip(&self.norm).zip(angles) {
-            let share: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
-            let n = share * (SMALLEST_LINE * self.integral / norm).max(1.0);
+            let sum: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
+            let n = sum * (SMALLEST_LINE * self.integral / norm).max(1.0);
             for p in particles {
                 let f = driving_force(tension, *angle, p.cos_alpha);
                 let norm = match delta {
                     // δ_wns,a = |n_a| W(d_s, h)/N, N the sum of V |n| W over the particles of the line [Huber2013, Eqs. 21, 22].
                     LineDelta::Normalized => n,
-                    // δ_wns,a = |n_a| |n̂_a − (n̂_a·e_s) e_s| W(d_s, h)/∫W ds, of the particle alone: across a straight interface that meets the wall
-                    // at the angle α, the way along it is ds/sin α, so that this sums to 1 at any α.
+                    // δ_wns,a = |n_a| |n̂_a − (n̂_a·e_s) e_s| W(d_s, h)/∫W ds, of the particle alone: along a straight interface that meets the wall at
+                    // the angle α, the element of length is ds/sin α, so that this sums to 1 at any α.
                     LineDelta::Local => self.integral / p.sin_alpha,
                 };
                 force[p.a] = f * p.delta * fields.weight[p.a] / norm * p.tangent;
@@ -132,7 +132,7 @@ impl LineParticles {
     }
 }
 
-/// The means over the particles of a line, of which there is one at least; `norm` is the sum of the weights.
+/// The means over the particles of a line, at least one; `norm` is the sum of the weights.
 fn mean(line: &[LineParticle], norm: f64, fields: &LineFields, domain: &Domain) -> MeanLine {
     let from = fields.position[line[0].a];
     let (mut place, mut outward, mut cosine) = (Vec2::zeros(), Vec2::zeros(), 0.0);
@@ -149,7 +149,7 @@ fn mean(line: &[LineParticle], norm: f64, fields: &LineFields, domain: &Domain) 
     MeanLine {
         place: domain.wrapped(from + place),
         outward: outward.try_normalize(f64::EPSILON).unwrap_or(line[0].tangent),
-        // Along the wall, the interface moves at the speed U where v·n = U ν·n; ν·n is −sin of the angle.
+        // An interface that moves along the wall with the speed U has v·n = U ν·n; ν·n is −sin of the angle.
         speed: if along < 0.0 { moved / along } else { 0.0 },
         present: cosine.clamp(-1.0, 1.0).acos(),
     }
@@ -174,15 +174,15 @@ fn line_particles(fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Ve
     (0..fluids).filter_map(candidate).collect()
 }
 
-/// The number of the contact line of each particle: neighbors whose ν_ns point the same way share a line.
+/// The number of the contact line of each particle: neighbors whose ν_ns have the same direction belong to one line.
 fn line_of(particles: &[LineParticle], neighborhood: &Neighborhood, fluids: usize) -> Vec<u32> {
     let Neighborhood { pairs, images } = neighborhood;
-    let mut place = vec![None; fluids];
+    let mut index = vec![None; fluids];
     for (i, p) in particles.iter().enumerate() {
-        place[p.a] = Some(i);
+        index[p.a] = Some(i);
     }
     components(particles.len(), |i| {
-        let near = pairs.of(particles[i].a).filter_map(|ab| place.get(images.source(ab.b)).copied().flatten());
+        let near = pairs.of(particles[i].a).filter_map(|ab| index.get(images.source(ab.b)).copied().flatten());
         near.filter(move |&j| particles[i].tangent.dot(&particles[j].tangent) > 0.0)
     })
 }

@@ -1,14 +1,14 @@
-//! Contact lines that last from step to step: where they stand, how fast they move, and where they are held.
+//! Contact lines tracked from step to step: position, speed and pinning.
 //!
 //! **Speed.** An interface that moves along a wall with the speed U has the normal velocity v·n = U ν·n at every height, ν along the wall
 //! towards the non-wetting phase and n into the wetting one. So U = Σ w v·n/Σ w ν·n over the interface within the stencil of a fit,
-//! less the speed of the wall: a mean over a dozen points in which the flow along the interface has no part. Noise must not feed back
-//! through a law θ(U), so each line keeps the mean over the time τ = √(ρ̄h³/σ) + μh/σ, in which an interface of the size h
-//! answers to a change of its angle, as part of the state.
+//! relative to the wall: a mean over a dozen points, independent of the flow along the interface. Noise must not feed back
+//! through a law θ(U), so the state of each line has the mean over the time τ = √(ρ̄h³/σ) + μh/σ, the response time of an
+//! interface of size h to a change of its angle.
 //!
-//! **Place.** A line of a model that holds has an anchor, a point of the wall. The circle fit goes through it, with the angle free.
-//! Where that angle is within the range, the interface is to meet the wall at that angle: a line that has left its anchor is
-//! drawn back. Where it is not, the angle is the bound, and the anchor moves to where the fit with that angle meets the wall.
+//! **Position.** A line of a model with pinning has an anchor, a point of the wall. The circle fit passes through it, with free angle.
+//! If this angle is within the hysteresis range, it is imposed: a line that has left its anchor is pulled back. Otherwise the angle is
+//! the bound of the range, and the anchor moves to where the fit with that angle meets the wall.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,59 +17,59 @@ use crate::sph::domain::Domain;
 use crate::wetting::Wetting;
 use crate::wetting::law::LineState;
 
-/// A line is looked for this far from where it was, over h: more than it moves in a step, less than lines are apart.
+/// Search radius of a line around its previous position, over h: more than it moves in a step, less than the distance between lines.
 const SAME_LINE: f64 = 1.5;
 
-/// A line that is not seen is kept for this many times τ, so that a moment without a fit does not loose its anchor.
+/// An undetected line is kept for this many times τ, so that a moment without a fit does not lose its anchor.
 const KEPT: f64 = 5.0;
 
-/// A place at a wall belongs to a contact line within this distance over h: the held fit reaches 3h along the interface.
+/// A point at a wall belongs to a contact line within this distance over h: the constrained fit extends 3h along the interface.
 pub(crate) const LINE_REACH: f64 = 4.0;
 
 /// A contact line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrackedLine {
-    /// Where the interface meets the wall, in m.
+    /// Intersection of interface and wall, in m.
     pub position: Vec2,
     /// ν_ns: unit vector along the wall from the wetting to the other phase.
     pub outward: Vec2,
     /// Speed U in m/s relative to the wall along ν_ns, a mean over τ.
     pub speed: f64,
-    /// The angle in rad at which the interface is to meet the wall.
+    /// The imposed contact angle in rad.
     pub angle: f64,
-    /// The point of the wall in m that a model which holds keeps the line at.
+    /// The point of the wall in m at which a model with pinning holds the line.
     pub anchor: Vec2,
-    /// Way in m that the position has gone along ν_ns since the line was first seen.
+    /// Displacement in m along ν_ns since the line was first detected.
     pub travel: f64,
-    /// Time in s since the line was last seen.
+    /// Time in s since the line was last detected.
     pub undetected: f64,
 }
 
-/// The unit vector along the wall that the lines have gone at least `way` (m) along, on the mean; none before.
-pub(crate) fn gone(lines: &[TrackedLine], way: f64) -> Option<Vec2> {
+/// The direction along the wall in which the lines have moved by at least `distance` (m) on average; `None` before.
+pub(crate) fn gone(lines: &[TrackedLine], distance: f64) -> Option<Vec2> {
     let along = lines.first()?.outward;
-    let ways = lines.iter().map(|line| line.travel * line.outward.dot(&along));
-    let mean = ways.sum::<f64>() / lines.len() as f64;
-    (mean.abs() >= way).then(|| mean.signum() * along)
+    let displacements = lines.iter().map(|line| line.travel * line.outward.dot(&along));
+    let mean = displacements.sum::<f64>() / lines.len() as f64;
+    (mean.abs() >= distance).then(|| mean.signum() * along)
 }
 
-/// What the interface tells of a contact line at one time.
+/// A contact line detected from the interface at one time.
 pub trait DetectedLine {
-    /// About where the line is: a point of the wall in m.
+    /// Approximate position of the line, a point of the wall in m.
     fn place(&self) -> Vec2;
     /// ν_ns.
     fn outward(&self) -> Vec2;
     /// Speed in m/s along ν_ns, not relative to the wall.
     fn speed(&self) -> f64;
-    /// Angle in rad of the interface through the point `anchor` (m) of the wall; without one at the place of the line.
+    /// Angle in rad of the interface through the point `anchor` (m) of the wall; without one through the position of the line.
     fn present(&self, anchor: Option<Vec2>) -> f64;
-    /// Where in m the interface meets the wall if it does so at the angle (rad).
+    /// Intersection in m of interface and wall, given the contact angle (rad).
     fn meets(&self, angle: f64) -> Vec2;
 }
 
-/// What the lines need to know of the flow and the wall.
+/// Tracker of contact lines, with properties of the flow and the wall.
 pub struct ContactLineTracker<'a> {
-    /// Sides.
+    /// Box and sides.
     pub domain: &'a Domain,
     /// The wetting model at a point of the wall.
     pub model: &'a (dyn Fn(Vec2) -> Wetting + Sync + 'a),
@@ -90,7 +90,7 @@ pub struct ContactLineTracker<'a> {
 }
 
 impl ContactLineTracker<'_> {
-    /// The lines now, from those of the step before, `dt` (s) ago, and from what is seen; those seen come first, in the order of detection.
+    /// The present lines, from those of the previous step, `dt` (s) ago, and the detected ones, which come first, in the order of detection.
     pub fn track(&self, before: &[TrackedLine], detected_lines: &[impl DetectedLine], dt: f64) -> Vec<TrackedLine> {
         let moved: Vec<TrackedLine> = before.iter().map(|line| self.carried(line, dt)).collect();
         let known = self.matches(&moved, detected_lines);
@@ -106,13 +106,13 @@ impl ContactLineTracker<'_> {
         lines
     }
 
-    /// The line carried along by its wall for `dt` (s).
+    /// The line advected with its wall for `dt` (s).
     fn carried(&self, line: &TrackedLine, dt: f64) -> TrackedLine {
         let by = dt * (self.wall_velocity)(line.anchor);
         TrackedLine { anchor: self.domain.wrapped(line.anchor + by), ..*line }
     }
 
-    /// For each detected line the line that it is, nearest pairs first.
+    /// For each detected line the tracked line that it continues, closest pairs first.
     fn matches(&self, lines: &[TrackedLine], detected_lines: &[impl DetectedLine]) -> Vec<Option<usize>> {
         let mut near = Vec::new();
         for (s, detected) in detected_lines.iter().enumerate() {
@@ -133,16 +133,16 @@ impl ContactLineTracker<'_> {
         found
     }
 
-    fn update(&self, detected_lines: &impl DetectedLine, known: Option<TrackedLine>, dt: f64) -> TrackedLine {
-        let (place, outward) = (detected_lines.place(), detected_lines.outward());
-        let speed = detected_lines.speed() - (self.wall_velocity)(place).dot(&outward);
+    fn update(&self, detected: &impl DetectedLine, known: Option<TrackedLine>, dt: f64) -> TrackedLine {
+        let (place, outward) = (detected.place(), detected.outward());
+        let speed = detected.speed() - (self.wall_velocity)(place).dot(&outward);
         let speed = match known {
             Some(line) => line.speed + (speed - line.speed) * (1.0 - (-dt / self.mean_over).exp()),
             None => speed,
         };
         let model = (self.model)(place);
         let anchor = known.map(|line| line.anchor).filter(|_| model.pins());
-        let present = detected_lines.present(anchor);
+        let present = detected.present(anchor);
         let state = LineState {
             present,
             speed,
@@ -153,17 +153,18 @@ impl ContactLineTracker<'_> {
             slip_length: self.slip_length,
         };
         let angle = model.angle(&state);
-        let is_held = model.pins() && angle == present;
+        let is_pinned = model.pins() && angle == present;
         let position = match anchor {
-            Some(anchor) if is_held => anchor,
-            _ => self.domain.wrapped(detected_lines.meets(angle)),
+            Some(anchor) if is_pinned => anchor,
+            _ => self.domain.wrapped(detected.meets(angle)),
         };
-        let way = known.map_or(0.0, |line| line.travel + self.domain.separation(position, line.position).dot(&outward));
-        TrackedLine { position, outward, speed, angle, anchor: position, travel: way, undetected: 0.0 }
+        let moved = |line: TrackedLine| line.travel + self.domain.separation(position, line.position).dot(&outward);
+        let travel = known.map_or(0.0, moved);
+        TrackedLine { position, outward, speed, angle, anchor: position, travel, undetected: 0.0 }
     }
 }
 
-/// The line that a place (m) at the wall belongs to: the nearest one with the same side within `reach` (m).
+/// The line to which a point (m) at the wall belongs: the nearest one with the same side within `reach` (m).
 pub(crate) fn nearest<'l>(
     lines: &'l [TrackedLine],
     domain: &Domain,
@@ -249,7 +250,7 @@ mod tests {
         assert_eq!(start[0].anchor, Vec2::zeros());
         let off = track(with_hysteresis(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
         assert_eq!(off[0].anchor, Vec2::zeros());
-        // An interface that went out is to stand steeper, which draws it in.
+        // For an interface displaced outwards a larger angle is imposed, which pulls it back.
         assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
     }
 
@@ -282,7 +283,7 @@ mod tests {
         for _ in 0..100 {
             lines = track(young, 0.0, &lines, &at(1.0), 0.01);
         }
-        // One mean time after a step from 0 to 1.
+        // One averaging time after a step from 0 to 1.
         assert!((lines[0].speed - (1.0 - (-1.0_f64).exp())).abs() < 1e-9, "{:?}", lines[0]);
     }
 

@@ -1,8 +1,8 @@
-//! Contact lines that last from step to step, and the volume form of the contact line's force.
+//! Contact lines tracked from step to step, and the contact line force as a volume force.
 //!
-//! The seam stands where the paper puts it (section 3.2): a wetting model (`crate::wetting`) says at which angle the interface is to meet
-//! the wall, given how the line moves. With the pressure jump the circle fit meets the wall at that angle θ; with the continuum force the
-//! line is driven by σ (cos θ − cos α), and `contact_line` spreads it over the particles. `lines` follows the lines and finds their speeds.
+//! The division follows the paper (section 3.2): a wetting model (`crate::wetting`) gives the contact angle to impose, depending on the
+//! motion of the line. With the pressure jump the circle fit meets the wall at that angle θ; with the continuum force the line is driven
+//! by σ (cos θ − cos α), which `contact_line` distributes over the particles. `lines` tracks the lines and determines their speeds.
 
 pub mod contact_line;
 pub mod lines;
