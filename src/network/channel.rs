@@ -1,50 +1,50 @@
-//! The channel between two walls as flow sees it: arcs that meet both walls at right angles, from a chord into a pore.
+//! Viscous resistance of the channel between two walls, from a chord into a pore, along arcs that meet both walls at right angles.
 //!
-//! Lubrication along these arcs: pressure is taken as equal along an arc, and the gradient is 12 μ q/h³ with the length h of the arc,
-//! per length of the line through the middles of the arcs. Arcs between ends P and Q with the distance d, whose walls diverge by 2α, have
-//! h = d α/sin α. As the line advances, the walls turn by dφ and the ends move by ds = R dφ with dφ ∝ 1/(R cos α + d/2) at a wall of radius R,
-//! and the line by (ds1 + ds2)/2 + d (dφ1 + dφ2)/(4 (1 + cos α)). A corner is a wall of radius 0.
+//! Lubrication along these arcs: the pressure is constant along an arc, and its gradient along the line through the middles of the arcs is
+//! 12 μ q/h³ with the length h of the arc. An arc between ends P and Q at the distance d, whose walls diverge by 2α, has h = d α/sin α. As
+//! the line advances, the walls turn by dφ and the ends move by ds = R dφ with dφ ∝ 1/(R cos α + d/2) at a wall of radius R, and the line
+//! by (ds1 + ds2)/2 + d (dφ1 + dφ2)/(4 (1 + cos α)). A corner is a wall of radius 0.
 //!
-//! Against the exact expansion of Stokes flow in the slope H' of the walls, whose resistance is 12/h³ (1 + 6/5 H'²) per length for a
-//! channel of the width h = 2 H along a straight axis, this is 12/h³ (1 + H'²): arcs see the slope of walls, to a sixth of its effect.
-//! For parallel walls it is exact. Between a floor and a lid an arc resists as a duct of its length does. Left out: how flows join in pores.
+//! The exact expansion of Stokes flow in the slope H' of the walls is a resistance of 12/h³ (1 + 6/5 H'²) per length for a channel of the
+//! width h = 2 H along a straight axis; here it is 12/h³ (1 + H'²), five sixths of the effect of the slope, and exact for parallel walls.
+//! Between floor and lid an arc resists like a duct of its length. Left out: junctions of flows in pores.
 
 use crate::geometry::curve::{Curve, cross};
 use crate::interface::depth::duct_factor;
 use crate::math::{Vec2, perpendicular};
 use crate::network::graph::WallPiece;
 
-/// Steps per length over which the width changes by its own size: conductances come out within 1e-4.
+/// Steps per length over which the width changes by its own size: conductances are accurate to 1e-4.
 const STEPS: f64 = 4.0;
-/// Angles in rad and shares of lengths below this are rounding.
+/// Rounding error of angles in rad and of relative lengths.
 const ROUNDING: f64 = 1e-9;
-/// A center closer than this share of the width is reached: what is left of the way adds less than this to a resistance.
+/// Distance from the center, in widths, at which it counts as reached: the rest adds less than this to a resistance.
 const REACHED: f64 = 1e-4;
-/// More steps than any channel takes: the width grows from step to step.
+/// Bound of the number of steps, more than any channel needs: the width grows from step to step.
 const MOST_STEPS: usize = 100_000;
-/// More corrections of a step's length than its end at that of a piece takes.
+/// Bound of the number of corrections of a step's length to the end of a piece, more than needed.
 const MOST_CORRECTIONS: usize = 50;
 
-/// A wall that begins at the end of a chord and leads into a pore.
+/// A wall from the end of a chord into a pore.
 #[derive(Debug, Clone)]
 pub(super) struct Wall {
     pieces: Vec<Piece>,
-    /// 1 where the wall turns away from the channel by turning left, else -1.
+    /// 1 if a left turn is a turn away from the channel, else -1.
     away: f64,
 }
 
-/// A part of a wall, run through by its length if it is straight, else by the angle of its turn.
+/// A part of a wall, parametrized by its length if it is straight, else by its turning angle.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     start: Vec2,
     tangent: Vec2,
-    /// In m, below 0 where the solid is concave, 0 at a corner; none where it is straight.
+    /// In m, negative for a concave solid, 0 at a corner; `None` if straight.
     radius: Option<f64>,
     end: f64,
 }
 
 impl Wall {
-    /// A wall of pieces in order. Beyond its end it is a corner: there the wall of another throat begins.
+    /// A wall of pieces in order. Its end is a corner, where the wall of another throat begins.
     pub(super) fn new(pieces: &[WallPiece], away: f64, begin: Vec2, along: Vec2) -> Self {
         let mut wall = Self { pieces: Vec::with_capacity(2 * pieces.len() + 1), away };
         let (mut end, mut tangent) = (begin, along);
@@ -70,14 +70,14 @@ impl Wall {
     }
 }
 
-/// A place on a wall: the piece and how far along it.
+/// A position on a wall: the piece and the parameter on it.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     piece: usize,
     at: f64,
 }
 
-/// Where the arc stands: its ends and what follows from them.
+/// An arc: its ends and derived quantities.
 #[derive(Debug, Clone, Copy)]
 struct Arc {
     chord: Vec2,
@@ -98,27 +98,27 @@ struct Arc {
 impl Arc {
     fn between(ends: [Vec2; 2], tangents: [Vec2; 2]) -> Self {
         let ([p, q], [t1, t2]) = (ends, tangents);
-        // Walls diverge by less than 3/2 π, and converge by less than π/2: beyond π both tangents point backwards.
+        // Walls diverge by less than 3/2 π, and converge by less than π/2: above π both tangents point backwards.
         let (cross, dot) = (cross(t1, t2), t1.dot(&t2));
         let is_beyond = cross < 0.0 && dot < 0.0;
         let (sum, difference) = (t1 + t2, t2 - t1);
         let cos = if is_beyond { -0.5 * sum.norm() } else { 0.5 * sum.norm() };
         let sin = if cross < 0.0 && !is_beyond { -0.5 * difference.norm() } else { 0.5 * difference.norm() };
-        // Rounding is least in the longer one of both.
+        // The longer one has the smaller rounding error.
         let direction = if dot > 0.0 { sum / (2.0 * cos) } else { -perpendicular(difference) / (2.0 * sin) };
         let chord = q - p;
         let d = chord.norm();
-        // α/sin α by its series where the quotient loses digits.
+        // α/sin α by its series if the quotient loses digits.
         let h = if sin.abs() < 1e-4 && cos > 0.0 { d * (1.0 + sin * sin / 6.0) } else { d * sin.atan2(cos) / sin };
         // tan(α/2) = sin α/(1 + cos α).
         let middle = 0.5 * (p + q) + direction * (0.5 * d * sin / (1.0 + cos));
         Self { chord, d, tangents, cos, sin, h, middle, direction }
     }
 
-    /// Area between arc and chord in m², above 0 where the arc bulges ahead.
+    /// Area between arc and chord in m², positive if the arc bulges forward.
     fn segment(&self) -> f64 {
         let alpha = self.sin.atan2(self.cos);
-        // d²/4 (α - sin α cos α)/sin² α, by its series where the quotient loses digits.
+        // d²/4 (α - sin α cos α)/sin² α, by its series if the quotient loses digits.
         let shape =
             if alpha.abs() < 1e-2 { alpha / 1.5 } else { (alpha - self.sin * self.cos) / (self.sin * self.sin) };
         0.25 * self.d * self.d * shape
@@ -133,7 +133,7 @@ impl Arc {
     }
 }
 
-/// How fast both ends move along their pieces, per length of the middle line, and how fast the walls turn from each other.
+/// Derivatives with respect to the length of the middle line: of the positions of both ends, and of the angle between the walls.
 struct Rates {
     ends: [f64; 2],
     turn: f64,
@@ -144,7 +144,7 @@ pub(super) struct Channel {
     pub(super) walls: [Wall; 2],
     /// The direction at right angles to the chord, into the pore.
     pub(super) along: Vec2,
-    /// Distance of floor and lid in m; none in the plane.
+    /// Distance between floor and lid in m; `None` in the plane.
     pub(super) depth: Option<f64>,
 }
 
@@ -164,7 +164,7 @@ impl Channel {
         Arc::between([p, q], [t1, t2])
     }
 
-    /// None where arcs no longer advance: walls that close around a focus, or straight ones that have turned away by more than a right angle.
+    /// `None` if arcs no longer advance: walls close around a focus, or straight walls have turned away by more than a right angle.
     fn rates(&self, places: [Place; 2], arc: &Arc) -> Option<Rates> {
         let Arc { d, cos, .. } = *arc;
         let rate = |wall: usize| match self.walls[wall].pieces[places[wall].piece].radius {
@@ -175,7 +175,7 @@ impl Channel {
                 if radius >= 0.0 {
                     return (turned > least).then(|| (1.0 / turned, radius / turned, 1.0 / turned));
                 }
-                // Both walls on one circle: every arc meets it at right angles, and both ends move alike.
+                // Both walls on one circle: every arc meets it at right angles, and both ends move equally.
                 let meets = turned.min(-least);
                 (turned <= least).then(|| (-1.0 / meets, radius / meets, 1.0 / meets))
             }
@@ -191,7 +191,7 @@ impl Channel {
         self.integral(center).0
     }
 
-    /// The same, with the number of steps that it took.
+    /// The same, with the number of steps.
     fn integral(&self, center: Vec2) -> (f64, usize) {
         let mut places = [Place { piece: 0, at: 0.0 }; 2];
         let (mut sum, mut steps) = (0.0, 0);
@@ -221,23 +221,23 @@ impl Channel {
         (sum, steps)
     }
 
-    /// What floor and lid resist less where an arc draws back over an area that it has passed, as a wall turns towards the channel: 12/b² times the area over
-    /// h². In the plane 12/h³ makes it small where the channel is wide.
+    /// Correction by floor and lid where a wall turns towards the channel and the arc recedes over an area that it has passed: 12/b² times the
+    /// area over h². In the plane 12/h³ makes it small in a wide channel.
     fn drawn_back(&self, before: &Arc, after: &Arc) -> f64 {
         let area = (after.segment() - before.segment()).min(0.0);
         self.depth.map_or(0.0, |depth| 12.0 * area / (depth * depth * before.h * after.h))
     }
 
-    /// How far the middle has to go until the center is abreast of it; 0 where the channel has turned off at nearly a right angle.
+    /// Distance of the middle to the position abreast of the center; 0 if the channel has turned off at nearly a right angle.
     fn ahead(&self, center: Vec2, arc: &Arc) -> f64 {
-        /// Cosine of the angle at which nothing is left of the way ahead.
+        /// Cosine of the angle at which no distance is left.
         const OFF: f64 = 0.1;
         let cos = self.along.dot(&arc.direction);
         if cos < OFF { 0.0 } else { self.along.dot(&(center - arc.middle)) / cos }
     }
 
-    /// Both places, that of a wall whose piece has ended at the beginning of its next one, and whether a wall turned towards the channel
-    /// there. None where a wall has no next piece.
+    /// Both positions, moved to the beginning of the next piece on a wall whose piece has ended, and whether a wall turned towards the channel
+    /// there. `None` if a wall has no next piece.
     fn entered(&self, mut places: [Place; 2], ended: [bool; 2]) -> Option<([Place; 2], bool)> {
         let mut is_concave = false;
         for (wall, place) in places.iter_mut().enumerate().filter(|&(wall, _)| ended[wall]) {
@@ -253,7 +253,7 @@ impl Channel {
         Some((places, is_concave))
     }
 
-    /// Advances the end that lags behind until the chord leans as much on one wall as on the other. False where a wall ends before.
+    /// Advances the end that lags behind until the chord has equal angles with both walls. False if a wall ends before.
     fn settle(&self, places: &mut [Place; 2], center: Vec2, sum: &mut f64) -> bool {
         let lead = |places: [Place; 2]| {
             let arc = self.arc(places);
@@ -297,7 +297,7 @@ impl Channel {
         }
     }
 
-    /// One step of the method of Runge and Kutta, shortened to the end of a piece or to where the center is abreast.
+    /// One Runge-Kutta step, shortened to the end of a piece or to the position abreast of the center.
     fn step(&self, places: [Place; 2], longest: f64, center: Vec2, (arc, first): (&Arc, &Rates)) -> Option<Step> {
         let mut length = longest;
         let end = |wall: usize| self.walls[wall].pieces[places[wall].piece].end;
@@ -305,7 +305,7 @@ impl Channel {
             let Reached { at, rates, resistance } = self.runge_kutta(places, length, arc, first)?;
             let rounding = |wall: usize| ROUNDING * (at[wall] - places[wall].at);
             let beyond = |wall: usize| at[wall] - end(wall);
-            // The secant from the beginning of the step, and Newton's method close to the end: far from it, Newton's may come down at the beginning.
+            // The secant from the beginning of the step, and Newton's method close to the end: far from it, Newton's may return to the beginning.
             let to_end = |wall: usize| {
                 let newton = length - beyond(wall) / rates[wall];
                 let secant = length * (end(wall) - places[wall].at) / (at[wall] - places[wall].at);
@@ -345,15 +345,15 @@ impl Channel {
     }
 }
 
-/// What a step of the method of Runge and Kutta has reached, beyond the ends of pieces too.
+/// The result of a Runge-Kutta step, possibly past the ends of pieces.
 struct Reached {
     at: [f64; 2],
-    /// How fast both ends move there.
+    /// Derivatives of the positions of both ends there.
     rates: [f64; 2],
     resistance: f64,
 }
 
-/// What a step has reached.
+/// The result of a step.
 struct Step {
     places: [Place; 2],
     ended: [bool; 2],
