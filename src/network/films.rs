@@ -33,7 +33,7 @@ impl FilmTerms {
         network.throats.iter().map(throat).collect()
     }
 
-    /// (p_n - p_w)/σ in 1/m where a meniscus has this curvature in the plane towards the wetting phase.
+    /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
     pub(crate) fn curvature(&self, in_plane: f64) -> f64 {
         self.depth.curvature(in_plane)
     }
@@ -148,7 +148,7 @@ impl Films {
         }
     }
 
-    /// (p_n - p_w)/σ in 1/m where a meniscus has this curvature in the plane towards the wetting phase.
+    /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
     pub(crate) fn curvature_at(&self, in_plane: f64) -> f64 {
         self.terms.curvature(in_plane)
     }

@@ -31,7 +31,7 @@ pub enum Edge {
         end: usize,
         /// Start of the chord in m, the end of the wall before it.
         from: Vec2,
-        /// Where it ends in m.
+        /// End in m.
         to: Vec2,
     },
     /// An interval of an open side between two walls.
@@ -40,7 +40,7 @@ pub enum Edge {
         opening: usize,
         /// Start in m.
         from: Vec2,
-        /// Where it ends in m.
+        /// End in m.
         to: Vec2,
     },
 }
