@@ -72,7 +72,7 @@ impl Wall {
 
 /// A position on a wall: the piece and the parameter on it.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct Position {
     piece: usize,
     at: f64,
 }
@@ -149,25 +149,25 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    fn end(&self, wall: usize, place: Place) -> (Vec2, Vec2) {
+    fn end(&self, wall: usize, position: Position) -> (Vec2, Vec2) {
         let Wall { pieces, away } = &self.walls[wall];
-        let Piece { start, tangent, radius, .. } = pieces[place.piece];
-        let Some(radius) = radius else { return (start + tangent * place.at, tangent) };
-        let (sin, cos) = (away * place.at * if radius < 0.0 { -1.0 } else { 1.0 }).sin_cos();
+        let Piece { start, tangent, radius, .. } = pieces[position.piece];
+        let Some(radius) = radius else { return (start + tangent * position.at, tangent) };
+        let (sin, cos) = (away * position.at * if radius < 0.0 { -1.0 } else { 1.0 }).sin_cos();
         let normal = perpendicular(tangent);
         let arm = normal * (away * radius);
         (start + arm * (1.0 - cos) + tangent * (away * radius * sin), tangent * cos + normal * sin)
     }
 
-    fn arc(&self, places: [Place; 2]) -> Arc {
-        let ((p, t1), (q, t2)) = (self.end(0, places[0]), self.end(1, places[1]));
+    fn arc(&self, positions: [Position; 2]) -> Arc {
+        let ((p, t1), (q, t2)) = (self.end(0, positions[0]), self.end(1, positions[1]));
         Arc::between([p, q], [t1, t2])
     }
 
     /// `None` if arcs no longer advance: walls close around a focus, or straight walls have turned away by more than a right angle.
-    fn rates(&self, places: [Place; 2], arc: &Arc) -> Option<Rates> {
+    fn rates(&self, positions: [Position; 2], arc: &Arc) -> Option<Rates> {
         let Arc { d, cos, .. } = *arc;
-        let rate = |wall: usize| match self.walls[wall].pieces[places[wall].piece].radius {
+        let rate = |wall: usize| match self.walls[wall].pieces[positions[wall].piece].radius {
             None => (cos > -ROUNDING).then(|| (1.0 / cos.max(ROUNDING), 1.0 / cos.max(ROUNDING), 0.0)),
             Some(radius) => {
                 let turned = radius * cos + 0.5 * d;
@@ -193,28 +193,28 @@ impl Channel {
 
     /// The same, with the number of steps.
     fn integral(&self, center: Vec2) -> (f64, usize) {
-        let mut places = [Place { piece: 0, at: 0.0 }; 2];
+        let mut positions = [Position { piece: 0, at: 0.0 }; 2];
         let (mut sum, mut steps) = (0.0, 0);
-        if !self.settle(&mut places, center, &mut sum) {
+        if !self.settle(&mut positions, center, &mut sum) {
             return (sum, steps);
         }
         while steps < MOST_STEPS {
             steps += 1;
-            let arc = self.arc(places);
+            let arc = self.arc(positions);
             let ahead = self.ahead(center, &arc);
             if ahead.is_nan() || ahead <= REACHED * arc.h {
                 break;
             }
-            let Some(rates) = self.rates(places, &arc) else { break };
+            let Some(rates) = self.rates(positions, &arc) else { break };
             let scale = arc.h / (2.0 * arc.sin.abs() + (arc.h * rates.turn.abs()).sqrt());
-            let Some(step) = self.step(places, (scale / STEPS).min(ahead), center, (&arc, &rates)) else { break };
+            let Some(step) = self.step(positions, (scale / STEPS).min(ahead), center, (&arc, &rates)) else { break };
             sum += step.resistance;
-            let Some((entered, is_concave)) = self.entered(step.places, step.ended) else { break };
+            let Some((entered, is_concave)) = self.entered(step.positions, step.ended) else { break };
             if is_concave {
-                sum += self.drawn_back(&self.arc(step.places), &self.arc(entered));
+                sum += self.drawn_back(&self.arc(step.positions), &self.arc(entered));
             }
-            places = entered;
-            if is_concave && !self.settle(&mut places, center, &mut sum) {
+            positions = entered;
+            if is_concave && !self.settle(&mut positions, center, &mut sum) {
                 break;
             }
         }
@@ -238,38 +238,38 @@ impl Channel {
 
     /// Both positions, moved to the beginning of the next piece on a wall whose piece has ended, and whether a wall turned towards the channel
     /// there. `None` if a wall has no next piece.
-    fn entered(&self, mut places: [Place; 2], ended: [bool; 2]) -> Option<([Place; 2], bool)> {
+    fn entered(&self, mut positions: [Position; 2], ended: [bool; 2]) -> Option<([Position; 2], bool)> {
         let mut is_concave = false;
-        for (wall, place) in places.iter_mut().enumerate().filter(|&(wall, _)| ended[wall]) {
-            let (_, before) = self.end(wall, *place);
-            let next = Place { piece: place.piece + 1, at: 0.0 };
+        for (wall, position) in positions.iter_mut().enumerate().filter(|&(wall, _)| ended[wall]) {
+            let (_, before) = self.end(wall, *position);
+            let next = Position { piece: position.piece + 1, at: 0.0 };
             if next.piece == self.walls[wall].pieces.len() {
                 return None;
             }
-            *place = next;
+            *position = next;
             let (_, after) = self.end(wall, next);
             is_concave |= self.walls[wall].away * cross(before, after) < -ROUNDING;
         }
-        Some((places, is_concave))
+        Some((positions, is_concave))
     }
 
     /// Advances the end that lags behind until the chord has equal angles with both walls. False if a wall ends before.
-    fn settle(&self, places: &mut [Place; 2], center: Vec2, sum: &mut f64) -> bool {
-        let lead = |places: [Place; 2]| {
-            let arc = self.arc(places);
+    fn settle(&self, positions: &mut [Position; 2], center: Vec2, sum: &mut f64) -> bool {
+        let lead = |positions: [Position; 2]| {
+            let arc = self.arc(positions);
             arc.chord.dot(&(arc.tangents[0] + arc.tangents[1])) / arc.d
         };
-        let first = lead(*places);
+        let first = lead(*positions);
         if first.abs() <= ROUNDING {
             return true;
         }
         let lagging = usize::from(first < 0.0);
         let sign = first.signum();
         loop {
-            let Place { piece, at } = places[lagging];
+            let Position { piece, at } = positions[lagging];
             let end = self.walls[lagging].pieces[piece].end;
             let with = |at: f64| {
-                let mut moved = *places;
+                let mut moved = *positions;
                 moved[lagging].at = at;
                 moved
             };
@@ -280,38 +280,38 @@ impl Channel {
                 let middle = 0.5 * (low + high);
                 if sign * lead(with(middle)) > 0.0 { low = middle } else { high = middle }
             }
-            let (before, after) = (self.arc(*places), self.arc(with(high)));
+            let (before, after) = (self.arc(*positions), self.arc(with(high)));
             let ahead = self.ahead(center, &before);
             let advance = after.direction.dot(&(after.middle - before.middle)).min(ahead).max(0.0);
             if advance > 0.0 {
                 *sum += advance * after.gradient(self.depth);
             }
-            *places = with(high);
+            *positions = with(high);
             if reaches {
                 return true;
             }
             if piece + 1 == self.walls[lagging].pieces.len() {
                 return false;
             }
-            places[lagging] = Place { piece: piece + 1, at: 0.0 };
+            positions[lagging] = Position { piece: piece + 1, at: 0.0 };
         }
     }
 
     /// One Runge-Kutta step, shortened to the end of a piece or to the position abreast of the center.
-    fn step(&self, places: [Place; 2], longest: f64, center: Vec2, (arc, first): (&Arc, &Rates)) -> Option<Step> {
+    fn step(&self, positions: [Position; 2], longest: f64, center: Vec2, (arc, first): (&Arc, &Rates)) -> Option<Step> {
         let mut length = longest;
-        let end = |wall: usize| self.walls[wall].pieces[places[wall].piece].end;
+        let end = |wall: usize| self.walls[wall].pieces[positions[wall].piece].end;
         for _ in 0..MOST_CORRECTIONS {
-            let Reached { at, rates, resistance } = self.runge_kutta(places, length, arc, first)?;
-            let rounding = |wall: usize| ROUNDING * (at[wall] - places[wall].at);
+            let Reached { at, rates, resistance } = self.runge_kutta(positions, length, arc, first)?;
+            let rounding = |wall: usize| ROUNDING * (at[wall] - positions[wall].at);
             let beyond = |wall: usize| at[wall] - end(wall);
             // The secant from the beginning of the step, and Newton's method close to the end: far from it, Newton's may return to the beginning.
             let to_end = |wall: usize| {
                 let newton = length - beyond(wall) / rates[wall];
-                let secant = length * (end(wall) - places[wall].at) / (at[wall] - places[wall].at);
+                let secant = length * (end(wall) - positions[wall].at) / (at[wall] - positions[wall].at);
                 if newton > 0.5 * secant && newton < length { newton } else { secant }
             };
-            let reached = self.arc([0, 1].map(|wall| Place { at: at[wall], ..places[wall] }));
+            let reached = self.arc([0, 1].map(|wall| Position { at: at[wall], ..positions[wall] }));
             let left = |arc: &Arc| self.along.dot(&(center - arc.middle));
             let to_center =
                 (left(&reached) < -REACHED * reached.h).then(|| length * left(arc) / (left(arc) - left(&reached)));
@@ -321,26 +321,27 @@ impl Channel {
                 continue;
             }
             let ended = [0, 1].map(|wall| beyond(wall) >= -rounding(wall));
-            let place = |wall: usize| Place { at: if ended[wall] { end(wall) } else { at[wall] }, ..places[wall] };
-            return Some(Step { places: [place(0), place(1)], ended, resistance });
+            let position =
+                |wall: usize| Position { at: if ended[wall] { end(wall) } else { at[wall] }, ..positions[wall] };
+            return Some(Step { positions: [position(0), position(1)], ended, resistance });
         }
         None
     }
 
-    fn runge_kutta(&self, places: [Place; 2], length: f64, arc: &Arc, first: &Rates) -> Option<Reached> {
+    fn runge_kutta(&self, positions: [Position; 2], length: f64, arc: &Arc, first: &Rates) -> Option<Reached> {
         let moved = |rates: &[f64; 2], share: f64| {
-            [0, 1].map(|wall| Place { at: places[wall].at + share * length * rates[wall], ..places[wall] })
+            [0, 1].map(|wall| Position { at: positions[wall].at + share * length * rates[wall], ..positions[wall] })
         };
-        let at = |places: [Place; 2]| {
-            let arc = self.arc(places);
-            Some((self.rates(places, &arc)?.ends, arc.gradient(self.depth)))
+        let at = |positions: [Position; 2]| {
+            let arc = self.arc(positions);
+            Some((self.rates(positions, &arc)?.ends, arc.gradient(self.depth)))
         };
         let (k1, g1) = (first.ends, arc.gradient(self.depth));
         let (k2, g2) = at(moved(&k1, 0.5))?;
         let (k3, g3) = at(moved(&k2, 0.5))?;
         let (k4, g4) = at(moved(&k3, 1.0))?;
         let mean = |wall: usize| (k1[wall] + 2.0 * (k2[wall] + k3[wall]) + k4[wall]) / 6.0;
-        let at = [0, 1].map(|wall| places[wall].at + length * mean(wall));
+        let at = [0, 1].map(|wall| positions[wall].at + length * mean(wall));
         Some(Reached { at, rates: k4, resistance: length * (g1 + 2.0 * (g2 + g3) + g4) / 6.0 })
     }
 }
@@ -355,7 +356,7 @@ struct Reached {
 
 /// The result of a step.
 struct Step {
-    places: [Place; 2],
+    positions: [Position; 2],
     ended: [bool; 2],
     resistance: f64,
 }

@@ -121,15 +121,15 @@ impl Sample {
         stop: &dyn Fn(f64) -> Option<(f64, bool)>,
         interrupt: &AtomicBool,
     ) -> Result<Option<Observed>, SolverError> {
-        let places = reference.places(&self.model().config, self.elements());
+        let counterparts = reference.counterparts(&self.model().config, self.elements());
         match self {
-            Self::QuasiStatic(solver) => Ok(quasi_static(*solver, &places, interrupt)),
-            Self::InTime(solver) => in_its_time(*solver, &places, stop, interrupt),
+            Self::QuasiStatic(solver) => Ok(quasi_static(*solver, &counterparts, interrupt)),
+            Self::InTime(solver) => in_its_time(*solver, &counterparts, stop, interrupt),
         }
     }
 }
 
-fn quasi_static(mut solver: NetworkSolver, places: &[Option<usize>], interrupt: &AtomicBool) -> Option<Observed> {
+fn quasi_static(mut solver: NetworkSolver, counterparts: &[Option<usize>], interrupt: &AtomicBool) -> Option<Observed> {
     let mut invaded = Vec::new();
     if let Some(cycles) = &mut solver.model.cycles {
         let mut half_cycle = 0;
@@ -159,7 +159,7 @@ fn quasi_static(mut solver: NetworkSolver, places: &[Option<usize>], interrupt: 
     let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(config, cycles));
     Some(Observed {
         curves,
-        invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
+        invaded: counterparts.iter().map(|counterpart| counterpart.is_some_and(|counterpart| invaded[place])).collect(),
         measures: measures::all(&solver.model),
         steps: solver.steps(),
         pores: config.pores.main_region.len(),
@@ -179,7 +179,7 @@ fn at_turn(cycles: &Cycles) -> Vec<bool> {
 
 fn in_its_time(
     mut solver: DynamicSolver,
-    places: &[Option<usize>],
+    counterparts: &[Option<usize>],
     stop: &dyn Fn(f64) -> Option<(f64, bool)>,
     interrupt: &AtomicBool,
 ) -> Result<Option<Observed>, SolverError> {
@@ -213,7 +213,7 @@ fn in_its_time(
     let invaded = invaded.unwrap_or_else(|| held(&solver));
     Ok(Some(Observed {
         curves: Vec::new(),
-        invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
+        invaded: counterparts.iter().map(|counterpart| counterpart.is_some_and(|counterpart| invaded[place])).collect(),
         measures: solver.measures(&series),
         steps: solver.steps(),
         pores: solver.quasi_static().config.pores.main_region.len(),
@@ -282,7 +282,7 @@ impl Reference {
     }
 
     /// For each of its elements the one of another network at the same position; `None` inside walls.
-    fn places(&self, config: &Configuration, elements: &[Element]) -> Vec<Option<usize>> {
+    fn counterparts(&self, config: &Configuration, elements: &[Element]) -> Vec<Option<usize>> {
         let is_same = config.geometry_hash == self.config.geometry_hash
             && elements.len() == self.elements.len()
             && elements.iter().zip(&self.elements).all(|(one, other)| one.area == other.area);

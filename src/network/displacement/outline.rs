@@ -88,7 +88,7 @@ fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
     polygon.extend(other[j + 1..].iter().map(|point| point + by + period));
     polygon.extend(other[1..=j].iter().map(|point| point + by));
     polygon.push(closest);
-    // The other chain lies towards the domain.
+    // Shift back to the position of the other chain: an open side lies in the domain.
     polygon.iter_mut().for_each(|point| *point -= by);
     Some(polygon)
 }
