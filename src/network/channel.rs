@@ -321,9 +321,8 @@ impl Channel {
                 continue;
             }
             let ended = [0, 1].map(|wall| beyond(wall) >= -rounding(wall));
-            let position =
-                |wall: usize| Position { at: if ended[wall] { end(wall) } else { at[wall] }, ..positions[wall] };
-            return Some(Step { positions: [position(0), position(1)], ended, resistance });
+            let next = |wall: usize| Position { at: if ended[wall] { end(wall) } else { at[wall] }, ..positions[wall] };
+            return Some(Step { positions: [next(0), next(1)], ended, resistance });
         }
         None
     }

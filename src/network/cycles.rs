@@ -13,12 +13,12 @@ use super::moment::Moment;
 use super::region::Counted;
 pub(crate) use crate::case::FluidPhase;
 
-/// One event that took place.
+/// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Entry {
     /// Index of its half cycle.
     pub half_cycle: usize,
-    /// What happened.
+    /// Its type.
     pub kind: EventKind,
     /// Index in the network of the throat that was passed.
     pub throat: Option<usize>,

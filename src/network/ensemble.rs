@@ -159,7 +159,7 @@ fn quasi_static(mut solver: NetworkSolver, counterparts: &[Option<usize>], inter
     let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(config, cycles));
     Some(Observed {
         curves,
-        invaded: counterparts.iter().map(|counterpart| counterpart.is_some_and(|counterpart| invaded[place])).collect(),
+        invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
         measures: measures::all(&solver.model),
         steps: solver.steps(),
         pores: config.pores.main_region.len(),
@@ -213,7 +213,7 @@ fn in_its_time(
     let invaded = invaded.unwrap_or_else(|| held(&solver));
     Ok(Some(Observed {
         curves: Vec::new(),
-        invaded: counterparts.iter().map(|counterpart| counterpart.is_some_and(|counterpart| invaded[place])).collect(),
+        invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
         measures: solver.measures(&series),
         steps: solver.steps(),
         pores: solver.quasi_static().config.pores.main_region.len(),

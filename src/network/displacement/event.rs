@@ -36,9 +36,7 @@ impl EventKind {
 pub(super) struct Candidate {
     /// Curvature of the meniscus in 1/m.
     pub(crate) curvature: f64,
-    /// Type of the event.
     pub(crate) kind: EventKind,
-    /// The gate.
     pub(crate) gate: usize,
     /// The end of the gate at which the meniscus enters.
     pub(crate) to: usize,

@@ -34,7 +34,6 @@ pub(super) struct Gate {
 /// All elements and gates.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Mesh {
-    /// The loops.
     pub(crate) loops: Vec<Loop>,
     /// The region of each loop.
     pub(crate) region_of: Vec<usize>,
@@ -47,9 +46,7 @@ pub(super) struct Mesh {
     /// For each crossing of each loop: the loop and the crossing on its other side, and the shift in m from the frame of this loop to that of
     /// the other one; `None` at openings.
     pub(crate) twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
-    /// The elements.
     pub(crate) elements: Vec<Element>,
-    /// The gates.
     pub(crate) gates: Vec<Gate>,
 }
 

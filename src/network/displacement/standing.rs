@@ -43,7 +43,6 @@ pub(crate) struct Standing {
 /// All interfaces, and the boundary of the invading phase.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Interfaces {
-    /// The interfaces.
     pub(crate) menisci: Vec<Standing>,
     /// The boundary of the invading phase in m, the phase on its left: along walls, then along menisci.
     pub(crate) outline: Vec<Curve>,

@@ -31,7 +31,7 @@ pub(super) struct WallChains {
     /// The chains, and whether the last piece leads back to the first.
     chains: Vec<(Vec<usize>, bool)>,
     /// For each piece its chain and its index in it.
-    positions: Vec<(usize, usize)>,
+    indices: Vec<(usize, usize)>,
     /// The pieces moved into the domain, for searching.
     boundary: Boundary,
     bounds: Bounds,
@@ -50,7 +50,7 @@ pub(super) struct Traced {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Contact {
     chain: usize,
-    position: usize,
+    index: usize,
     u: f64,
     is_left: bool,
     meniscus: usize,
@@ -81,9 +81,9 @@ impl WallChains {
             }
         }
         let chains = chains(&next);
-        let mut positions = vec![(0, 0); curves.len()];
+        let mut indices = vec![(0, 0); curves.len()];
         for (chain, (pieces, _)) in chains.iter().enumerate() {
-            pieces.iter().enumerate().for_each(|(position, &piece)| positions[piece] = (chain, position));
+            pieces.iter().enumerate().for_each(|(index, &piece)| indices[piece] = (chain, index));
         }
         let size = bounds.size();
         let moved = |curve: &Curve| {
@@ -91,7 +91,7 @@ impl WallChains {
             Piece { curve: curve.shifted(wrapped(middle, bounds, periodic) - middle), shape: 0 }
         };
         let boundary = Boundary::new(curves.iter().map(moved).collect(), ON_WALL * size.max());
-        Self { curves, is_invaded: tags, chains, positions, boundary, bounds, periodic }
+        Self { curves, is_invaded: tags, chains, indices, boundary, bounds, periodic }
     }
 
     /// Cuts the walls at the left and right ends of menisci, each with its length of wall from its gate.
@@ -102,8 +102,8 @@ impl WallChains {
             for (&(point, advance), is_left) in both.iter().zip([true, false]) {
                 match self.locate(point) {
                     Some((piece, u)) => {
-                        let (chain, position) = self.positions[piece];
-                        contacts[chain].push(Contact { chain, position, u, is_left, meniscus, advance });
+                        let (chain, index) = self.indices[piece];
+                        contacts[chain].push(Contact { chain, index, u, is_left, meniscus, advance });
                     }
                     None => crossed.push(meniscus),
                 }
@@ -149,9 +149,8 @@ impl WallChains {
 
     /// Sorts contacts along their chain, coincident ones so that left and right ends alternate.
     fn order(&self, contacts: &mut [Contact]) {
-        contacts
-            .sort_by(|a, b| a.position.cmp(&b.position).then(a.u.total_cmp(&b.u)).then(a.meniscus.cmp(&b.meniscus)));
-        let point = |contact: &Contact| self.curves[self.chains[contact.chain].0[contact.position]].point(contact.u);
+        contacts.sort_by(|a, b| a.index.cmp(&b.index).then(a.u.total_cmp(&b.u)).then(a.meniscus.cmp(&b.meniscus)));
+        let point = |contact: &Contact| self.curves[self.chains[contact.chain].0[contact.index]].point(contact.u);
         let same = ON_WALL * self.bounds.size().max();
         for k in 1..contacts.len().saturating_sub(1) {
             let is_tie = (point(&contacts[k]) - point(&contacts[k + 1])).norm() <= same;
@@ -182,7 +181,7 @@ impl WallChains {
         let mut sides = Vec::new();
         let mut from = None;
         for contact in contacts {
-            let here = (contact.position, contact.u);
+            let here = (contact.index, contact.u);
             if contact.is_left {
                 sides.extend(self.between(chain, from.take().unwrap_or((0, 0.0)), here));
             } else {
@@ -197,10 +196,10 @@ impl WallChains {
 
     /// The pieces of a chain between two positions on it.
     fn between(&self, chain: usize, (i, u): (usize, f64), (j, v): (usize, f64)) -> Vec<Side> {
-        let ends = |position: usize| (if position == i { u } else { 0.0 }, if position == j { v } else { 1.0 });
-        let side = |position: usize| {
-            let (from, to) = ends(position);
-            Side { piece: self.chains[chain].0[position], from, to }
+        let ends = |index: usize| (if index == i { u } else { 0.0 }, if index == j { v } else { 1.0 });
+        let side = |index: usize| {
+            let (from, to) = ends(index);
+            Side { piece: self.chains[chain].0[index], from, to }
         };
         (i..=j).map(side).filter(|side| side.to > side.from).collect()
     }

@@ -3,7 +3,7 @@
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::Laplacian;
 
-/// What a link stands for.
+/// The type of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Way {
     /// A throat with one phase on both sides.

@@ -4,29 +4,31 @@
 //!
 //! An element is a part of the pore space between at most three walls; it holds one phase or is filling. A node is a set of adjoining
 //! elements of one region that hold the same phase, with one pressure p; a link carries the flow q between two nodes. A throat resists with
-//! R = μ₁ r₁ + μ₂ r₂ (its two halves), and a meniscus in it that has swept the area v since the chord of its gate with σ κ(v), where κ is
-//! exact for the walls (`capillary_curve.rs`):
+//! R = μ₁ r₁ + μ₂ r₂ (its two halves), and a meniscus in it that has swept the area v since the chord of its gate with σ κ(v), where the
+//! curvature κ is exact for the walls (`capillary_curve.rs`) and includes that by floor and lid:
 //!
 //! R q = p_i − p_j − σ κ(v),  dv/dt = q,  and in each node outflow − inflow = source.
 //!
 //! One step of [`Dynamic::advance`], by backward Euler with a step Δt that ends at the next event:
 //!
 //! 1. Process all events that are due (`process_events`).
-//! 2. After an event, assemble nodes and links anew (`current_graph`, `graph`). If no path leads from the inlet to a given pressure, stop.
-//! 3. Bound Δt by the injected area and by the time asked for (`longest_step`).
+//! 2. After an event, assemble nodes and links again (`current_graph`, `graph`). At a given rate, stop if no path connects inlet and outlet.
+//! 3. Bound Δt by the injected area (`longest_step`) and the time requested.
 //! 4. Collect what is constant during the step (`known`): resistances and driving pressures (`drop_without_rise`), the curve κ(v) of each
 //!    meniscus and of each filling element (`law`), sources, and event functions, which fall to 0 at an event (`ends_of_step`, `value_of`).
 //! 5. Find Δt together with p and q (`trial_along`). In each iteration:
-//!    1. Linearize about areas a: the link has the conductance 1/(R + σ κ′(a) Δt) and the jump −σ (κ(a) + κ′(a) (v − a)) (`conductors`).
+//!    1. Linearize about areas a: with v before the step, a link has the conductance 1/(R + σ κ′(a) Δt) and the pressure jump
+//!       −σ (κ(a) + κ′(a) (v − a)) (`conductors`).
 //!    2. With one Cholesky factorization, solve for p, q and their derivatives with respect to Δt (`path`).
 //!    3. Find the smallest Δt at which an event function is 0 (`first_along`); accept it if κ and p agree with the linearization (`accepted`).
-//!    4. Otherwise compute areas in equilibrium with the pressures (`equilibrium_area`, `filling`), with them the next Δt (`first_along`), limit the
-//!       change of pressures (`damp`), and take the areas at these pressures as the next a.
+//!    4. Otherwise find the next Δt with areas in equilibrium with the pressures (`equilibrium_area`, `filling`, `first_along`), limit the
+//!       change of pressures by a line search (`damp`), and take the areas in equilibrium with them as the next a.
 //! 6. If that does not converge, bracket Δt (`trial_between`, `estimate`), with Newton's method and a line search at each (`trial`, `least_work`).
 //! 7. Add q Δt to the swept area of each meniscus, or, past its event, to the element that it fills (`commit`).
-//! 8. Process the events, full elements first, then by rising curvature (`process_events`): a meniscus bursts, touches or overlaps with its
-//!    neighbor and enters the element ahead (`pass`), which fills at the curvature cos θ/R_j (`begin_filling`); menisci together cover an
-//!    element (`cover`); a full element gets menisci in its other gates, at the same total area (`complete`); one touches the outlet (`leave`).
+//! 8. Process the events that are due, bursts, touches and overlaps last and by rising curvature (`process_events`): a full element gets
+//!    menisci in its other gates, at the same total area (`complete`); menisci together cover an element and enter it (`cover`); a meniscus
+//!    touches the outlet (`leave`); one bursts, touches or overlaps and enters the element ahead (`pass`), which then fills at the curvature
+//!    cos θ/R_j of its largest inscribed circle, or that of the event if it is smaller (`begin_filling`).
 //!
 //! Areas change by flow only, so both phases are conserved, and trapping needs no rule of its own. An element open at the outlet stays open
 //! to the defending phase: the invading phase leaves it once its meniscus touches the side (`open.rs`).
@@ -84,12 +86,12 @@ struct Filling {
     is_joined: bool,
 }
 
-/// One event that took place.
+/// An event.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Occurrence {
     /// Time in s.
     pub time: f64,
-    /// What happened.
+    /// Its type.
     pub kind: EventKind,
     /// Index in the network of the throat that was passed.
     pub throat: Option<usize>,
