@@ -1,5 +1,4 @@
-//! Contact angles of walls, floor and lid as a phase that invades meets them: the wetting phase recedes from them where the other one invades, else it
-//! advances.
+//! Contact angles of walls, floor and lid for an invading phase: receding if the non-wetting phase invades, advancing if the wetting phase does.
 
 use std::f64::consts::PI;
 
@@ -11,7 +10,7 @@ use crate::interface::depth::Depth;
 use crate::interface::films::WallFilms;
 use crate::wetting::Wetting;
 
-/// Floor and lid as a phase that invades meets them: on them the wetting phase recedes or advances.
+/// Floor and lid with the angles for an invading phase: on them the wetting phase recedes or advances.
 pub(super) fn met_by(invading: FluidPhase, depth: f64, interface: &NetworkInterface) -> Depth {
     let (wall, plates) = on_depth(invading, interface);
     Depth::new(depth, wall, plates)
@@ -35,7 +34,7 @@ pub(super) fn film_terms(invading: FluidPhase, depth: f64, interface: &NetworkIn
     }
 }
 
-/// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.
+/// Contact angle of each wall through the defending phase in rad: receding if the non-wetting phase invades.
 pub(super) fn angles(interface: &NetworkInterface, walls: usize, invading: FluidPhase) -> Vec<f64> {
     let through_defending = |model: &Wetting| match invading {
         FluidPhase::NonWetting => model.hysteresis_range()[0],

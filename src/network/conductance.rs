@@ -1,15 +1,15 @@
 //! Hydraulic conductance of throats and openings: the flow per depth is g Δp/μ, g in m².
 //!
-//! 1/g is the resistance from the center of one pore to that of the other, by lubrication along the arcs that meet both walls at right
-//! angles (`channel.rs`). Nothing else enters: walls may be round, straight, or corners, of any curvature.
+//! 1/g is the resistance between two pore centers, by lubrication along arcs that meet both walls at right angles (`channel.rs`), for round
+//! or straight walls and corners of any curvature. There are no fitted parameters.
 //!
-//! Left out: how flows turn and join in pores.
+//! Left out: turning and junction of flows in pores.
 
 use crate::math::{Vec2, perpendicular};
 use crate::network::channel::{Channel, Wall};
 use crate::network::graph::{Edge, Network, WallPiece};
 
-/// Pore centers closer to a chord than this share of its width are as far from it: conductances stay finite.
+/// Least distance of a pore center from a chord, in widths, so that conductances are finite.
 const SHORTEST: f64 = 1e-6;
 
 /// Least resistance of a throat, times its squared width.

@@ -1,7 +1,7 @@
-//! A displacement through its half cycles: what invades, where each ends, and what happened so far.
+//! Half cycles of drainage and imbibition: the invading phase, the end of each, and the history of events.
 //!
-//! The invading phase of the first half cycle enters a pore space full of the other one. Each further half cycle begins with the state
-//! that the one before left, with the phases, the inlet and the outlet exchanged.
+//! In the first half cycle the invading phase enters a pore space full of the other one. Each further half cycle starts from the final
+//! state of the previous one, with phases, inlet and outlet exchanged.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use super::moment::Moment;
 use super::region::Counted;
 pub(crate) use crate::case::FluidPhase;
 
-/// One event that took place.
+/// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Entry {
     /// Index of its half cycle.
     pub half_cycle: usize,
-    /// What happened.
+    /// Its type.
     pub kind: EventKind,
-    /// The throat that was passed, an index into those of the network.
+    /// Index in the network of the throat that was passed.
     pub throat: Option<usize>,
     /// Curvature of the meniscus towards the wetting phase in 1/m.
     pub curvature: f64,
@@ -28,37 +28,37 @@ pub struct Entry {
     pub applied: f64,
     /// Saturation of the wetting phase afterwards.
     pub saturation: f64,
-    /// Share of the pore space that films in corners hold afterwards, part of the saturation.
+    /// Corner films afterwards as a fraction of the pore space, part of the saturation.
     pub film_saturation: f64,
 }
 
-/// When an element was filled in the present half cycle.
+/// The filling of an element in the present half cycle.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Invasion {
-    /// Number of the event within its half cycle, from 1 on; 0 for what is filled at the beginning, through an opening of the inlet.
+    /// Number of the event within its half cycle, from 1; 0 for elements filled initially through openings of the inlet.
     pub sequence: usize,
-    /// Applied curvature towards the wetting phase in 1/m; NaN at the beginning.
+    /// Applied curvature towards the wetting phase in 1/m; NaN initially.
     pub applied: f64,
-    /// Share of the pore space that was displaced in this half cycle, this event included.
+    /// Fraction of the pore space displaced in this half cycle, including this event.
     pub displaced: f64,
 }
 
-/// How a half cycle went.
+/// Summary of a half cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Outcome {
     /// Number of its events.
     pub(crate) events: usize,
-    /// At the event by which the invading phase reached the outlet: applied curvature in 1/m and share of the invading phase.
+    /// At breakthrough: applied curvature in 1/m and saturation of the invading phase.
     pub(crate) breakthrough: Option<(f64, f64)>,
-    /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
+    /// Initial saturation of the wetting phase, before and after elements open at the inlet are filled.
     pub(crate) first_saturation: [f64; 2],
-    /// Share of the pore space that films hold after that.
+    /// Films after that, as a fraction of the pore space.
     pub(crate) first_film_saturation: f64,
-    /// Curvature in the plane in 1/m that was applied at last, after all events, where films follow it.
+    /// Final applied curvature in the plane in 1/m, after all events, if films follow it.
     pub(crate) last: Option<f64>,
 }
 
-/// A displacement through its half cycles.
+/// A displacement in half cycles.
 #[derive(Debug, Clone)]
 pub struct Cycles {
     network: Arc<Network>,
@@ -71,7 +71,7 @@ pub struct Cycles {
     pub(super) half_cycle: usize,
     is_done: bool,
     steps: u64,
-    /// Area of the wetting phase, of the whole domain and of what counts.
+    /// Area of the wetting phase in the whole domain and in the region of saturations.
     wetting_area: f64,
     pub(super) counted_wetting: f64,
     pub(super) counted: Arc<Counted>,
@@ -79,7 +79,7 @@ pub struct Cycles {
     history: Vec<Entry>,
     invasions: Vec<Option<Invasion>>,
     pub(super) outcomes: Vec<Outcome>,
-    /// Displaced area at the beginning of the present half cycle.
+    /// Displaced area at the start of the present half cycle.
     displaced_before: f64,
     /// The films in corners, and their volume over the depth in m².
     pub(super) films: Option<Films>,
@@ -87,7 +87,7 @@ pub struct Cycles {
     pub(super) curve: Vec<CurvePoint>,
 }
 
-/// A saturation this near to 0 or 1 differs from it by the rounding of a sum of areas.
+/// Rounding error of saturations, which are sums of areas.
 const ROUNDING: f64 = 1.0e-12;
 
 pub(super) fn tidy(saturation: f64) -> f64 {
@@ -101,9 +101,8 @@ pub(super) fn tidy(saturation: f64) -> f64 {
 }
 
 impl Cycles {
-    /// The beginning of the first of the half cycles, in a pore space full of the defending phase or in the phases of `initial`; none where
-    /// there is no half cycle. A `division` that is known is that of the network for the events of the half cycles. Saturations are those of the areas
-    /// that `count` gives.
+    /// The start of the first half cycle, in a pore space full of the defending phase or with the phases of `initial`; `None` without half
+    /// cycles. `division`, if given, is that of the network for the events of the half cycles. Saturations refer to the areas of `count`.
     pub(crate) fn new(
         network: Arc<Network>,
         pores: Arc<Pores>,
@@ -160,7 +159,7 @@ impl Cycles {
         Some(cycles)
     }
 
-    /// Takes account of what a half cycle fills at its beginning; `before` are the phases that the elements would have without that.
+    /// Accounts for the initial filling of a half cycle; `before` are the phases of the elements without it.
     fn begin(&mut self, before: &[Phase]) {
         let saturation = self.saturation();
         self.displaced_before = self.displaced_area;
@@ -177,18 +176,18 @@ impl Cycles {
         }
         self.follow_films();
         let first_saturation = [saturation, self.saturation()];
-        // No pressure holds back what enters through an opening, so that there is none to tell.
+        // Openings have no entry pressure, so there is none to record.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
         let first_film_saturation = self.film_saturation();
         self.outcomes.push(Outcome { first_saturation, first_film_saturation, breakthrough, ..Outcome::default() });
     }
 
-    /// The areas that count in saturations.
+    /// The areas to which saturations refer.
     pub(crate) fn counted(&self) -> &Counted {
         &self.counted
     }
 
-    /// Share of the pore space that the invading phase holds.
+    /// Saturation of the invading phase.
     fn invading_saturation(&self) -> f64 {
         match self.half_cycle().invading {
             FluidPhase::Wetting => self.saturation(),
@@ -196,7 +195,7 @@ impl Cycles {
         }
     }
 
-    /// Counts the areas of elements that the invading phase filled.
+    /// Adds the areas of elements that the invading phase filled.
     fn displace(&mut self, elements: &[usize]) {
         let area: f64 = elements.iter().map(|&element| self.displacement.elements()[element].area).sum();
         self.displaced_area += area;
@@ -205,7 +204,7 @@ impl Cycles {
         self.counted_wetting += sign * elements.iter().map(|&element| self.counted.areas[element]).sum::<f64>();
     }
 
-    /// The same displacement at its beginning.
+    /// The same displacement in its initial state.
     pub(crate) fn restarted(&self) -> Option<Self> {
         let initial = self.initial.clone();
         let counted = Counted::clone(&self.counted);
@@ -213,7 +212,7 @@ impl Cycles {
         Self::new(network, pores, self.half_cycles.clone(), (initial, None), |_| counted)
     }
 
-    /// Does the next event, or turns to the next half cycle; none where the displacement is over.
+    /// Performs the next event, or starts the next half cycle; `None` if the displacement is over.
     pub(crate) fn advance(&mut self) -> Option<&'static str> {
         if self.is_done {
             return None;
@@ -261,7 +260,7 @@ impl Cycles {
         }
     }
 
-    /// The moment after the event by which an invading phase first reached its outlet.
+    /// The moment after first breakthrough.
     pub fn breakthrough(&self) -> Option<&Moment> {
         self.breakthrough.as_deref()
     }
@@ -291,7 +290,7 @@ impl Cycles {
         Some("reversal")
     }
 
-    /// The half cycle that goes on or has ended last.
+    /// The half cycle in progress, or the last one.
     pub(crate) fn half_cycle(&self) -> &HalfCycle {
         &self.half_cycles[self.half_cycle]
     }
@@ -306,32 +305,32 @@ impl Cycles {
         &self.half_cycles
     }
 
-    /// Those that have begun: how they went.
+    /// Summaries of those that have started.
     pub(crate) fn outcomes(&self) -> &[Outcome] {
         &self.outcomes
     }
 
-    /// Whether nothing will happen any more.
+    /// Whether the displacement is over.
     pub(crate) fn is_done(&self) -> bool {
         self.is_done
     }
 
-    /// Number of calls of [`advance`](Self::advance) that this state is the result of.
+    /// Number of calls of [`advance`](Self::advance) up to this state.
     pub(crate) fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// The displaced pore volumes of all half cycles, a sum of areas over the pore area.
+    /// Displaced pore volumes of all half cycles, a sum of areas over the pore area.
     pub(crate) fn displaced(&self) -> f64 {
         self.displaced_area / self.pore_area
     }
 
-    /// Saturation of the wetting phase, films in corners included.
+    /// Saturation of the wetting phase, including corner films.
     pub(crate) fn saturation(&self) -> f64 {
         tidy((self.counted_wetting + self.film_area) / self.counted.sum)
     }
 
-    /// Share of the pore space that holds the defending phase and cannot let it go.
+    /// Saturation of the trapped defending phase.
     pub fn trapped_saturation(&self) -> f64 {
         let trapped = self.counted.area_of(|element| self.displacement.is_trapped(element));
         let films = self.films.as_ref().map_or(0.0, |films| films.trapped_area(&self.displacement));
@@ -343,7 +342,7 @@ impl Cycles {
         &self.history
     }
 
-    /// The applied curvature towards the wetting phase in 1/m; none before the first event of a half cycle.
+    /// The applied curvature towards the wetting phase in 1/m; `None` before the first event of a half cycle.
     pub(crate) fn applied(&self) -> Option<f64> {
         let last = self.outcomes.get(self.half_cycle).and_then(|outcome| outcome.last);
         last.or_else(|| self.last_event())
@@ -358,7 +357,7 @@ impl Cycles {
         &self.displacement
     }
 
-    /// When the elements were filled in the present half cycle.
+    /// The filling of each element in the present half cycle.
     pub(crate) fn invasions(&self) -> &[Option<Invasion>] {
         &self.invasions
     }

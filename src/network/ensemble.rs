@@ -1,7 +1,7 @@
-//! One network of many that differ in uncertain values: what is kept of it, and maps of all of them.
+//! An ensemble of networks that differ in uncertain values: the results of one realization, and maps of all.
 //!
-//! Capillary pressures are read at the same saturations of the wetting phase in each, and the state when the invading phase reaches the outlet, or at
-//! the end of the first half cycle where it does not, by the parts of the pore space of the first of them.
+//! Capillary pressures are evaluated at the same saturations of the wetting phase in each. The state at breakthrough, or without it at the
+//! end of the first half cycle, is evaluated in the elements of the first realization.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -24,31 +24,31 @@ use crate::snapshot::Layer;
 use crate::solver::{Measure, Series, Solver, SolverError};
 use crate::table::Table;
 
-/// Saturations of the wetting phase at which capillary pressures are read, from 0 to 1.
+/// Number of saturations of the wetting phase, from 0 to 1, at which capillary pressures are evaluated.
 pub(crate) const SATURATIONS: usize = 101;
 
-/// Saturations that differ by less are the same: sums of areas.
+/// Rounding error of saturations, which are sums of areas.
 const ROUNDING: f64 = 1e-9;
 
-/// Steps between two looks at an interrupt.
+/// Steps between two checks for an interrupt.
 const BETWEEN_LOOKS: u64 = 64;
 
 /// A network before its displacement.
 pub(crate) enum Sample {
     /// Quasi-static, or without a displacement.
     QuasiStatic(Box<NetworkSolver>),
-    /// In time.
+    /// Dynamic.
     InTime(Box<DynamicSolver>),
 }
 
-/// What is kept of a network.
+/// The results of one realization.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Observed {
     /// All measures.
     pub(crate) measures: Vec<Measure>,
-    /// For each half cycle the capillary pressure in Pa at each of the saturations, infinite where the saturation is not reached or needs no pressure.
+    /// For each half cycle the capillary pressure in Pa at each saturation, infinite if the saturation is not reached or needs no pressure.
     pub(crate) curves: Vec<Vec<f64>>,
-    /// Which parts of the reference the invading phase held.
+    /// Which elements of the reference the invading phase held.
     pub(crate) invaded: Vec<bool>,
     /// Number of events or steps.
     pub(crate) steps: u64,
@@ -56,7 +56,7 @@ pub(crate) struct Observed {
     pub(crate) pores: usize,
 }
 
-/// The parts of the pore space that a map shows, those of one of the networks.
+/// The elements of a map, those of one of the networks.
 pub(crate) struct Reference {
     config: Configuration,
     elements: Vec<Element>,
@@ -65,10 +65,10 @@ pub(crate) struct Reference {
 }
 
 impl Sample {
-    /// The network of a case on a ground that is its own or that of a case of the same geometry, sides and persistence ratio.
+    /// The network of a case, on its own ground or that of a case of the same geometry, sides and persistence ratio.
     ///
     /// # Errors
-    /// [`SetupError`] where there is no such network.
+    /// [`SetupError`] if there is no such network.
     pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork, costly: Costly) -> Result<Self, SetupError> {
         let mut quasi_static = build_on(ground, wanted, case.depth)?;
         if costly.permeabilities && case.depth == ground.network.depth {
@@ -98,7 +98,7 @@ impl Sample {
         }
     }
 
-    /// The parts of its pore space.
+    /// Its elements.
     pub(crate) fn reference(&self) -> Reference {
         let elements = self.elements().to_vec();
         let probes = elements.iter().map(|element| inner_point(&element.outline)).collect();
@@ -111,11 +111,11 @@ impl Sample {
         Reference { config: self.model().config.clone(), elements, probes, processes }
     }
 
-    /// Does the displacement and finds its measures, of a quasi-static one without the costly ones that are left out; `None` if it was interrupted.
-    /// `stop` gives the next time in s at which a displacement in time halts, and whether its state is recorded there.
+    /// Performs the displacement and finds its measures, those of a quasi-static one without the costly ones that are left out; `None` if
+    /// interrupted. `stop` returns, for a dynamic displacement, the next time in s at which it halts, and whether its state is recorded then.
     ///
     /// # Errors
-    /// [`SolverError`] of a displacement in time.
+    /// [`SolverError`] of a dynamic displacement.
     pub(crate) fn observed(
         self,
         reference: &Reference,
@@ -123,17 +123,17 @@ impl Sample {
         stop: &dyn Fn(f64) -> Option<(f64, bool)>,
         interrupt: &AtomicBool,
     ) -> Result<Option<Observed>, SolverError> {
-        let places = reference.places(&self.model().config, self.elements());
+        let counterparts = reference.counterparts(&self.model().config, self.elements());
         match self {
-            Self::QuasiStatic(solver) => Ok(quasi_static(*solver, &places, costly, interrupt)),
-            Self::InTime(solver) => in_its_time(*solver, &places, stop, interrupt),
+            Self::QuasiStatic(solver) => Ok(quasi_static(*solver, &counterparts, costly, interrupt)),
+            Self::InTime(solver) => in_its_time(*solver, &counterparts, stop, interrupt),
         }
     }
 }
 
 fn quasi_static(
     mut solver: NetworkSolver,
-    places: &[Option<usize>],
+    counterparts: &[Option<usize>],
     costly: Costly,
     interrupt: &AtomicBool,
 ) -> Option<Observed> {
@@ -152,7 +152,7 @@ fn quasi_static(
         if let Some(moment) = cycles.breakthrough() {
             let displacement = &moment.displacement;
             let holds = |element| displacement.phase(element) == Phase::Invading;
-            // Of the first half cycle alone: the phases of others are the other way round.
+            // Only of the first half cycle: in the second the phases are exchanged.
             if moment.half_cycle == 0 {
                 invaded = (0..displacement.elements().len()).map(holds).collect();
             }
@@ -166,19 +166,19 @@ fn quasi_static(
     let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(config, cycles));
     Some(Observed {
         curves,
-        invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
+        invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
         measures: measures::with_costly(&solver.model, costly),
         steps: solver.steps(),
         pores: config.pores.main_region.len(),
     })
 }
 
-/// What the phase that invaded first holds when the first half cycle has just turned.
+/// The elements of the first invading phase just after the end of the first half cycle.
 fn at_turn(cycles: &Cycles) -> Vec<bool> {
     let displacement = cycles.displacement();
     let holds = |element: usize| match displacement.phase(element) {
         Phase::Defending => true,
-        // The beginning of the next half cycle has taken it.
+        // The start of the next half cycle has filled it.
         Phase::Invading => cycles.invasions()[element].is_some(),
     };
     (0..displacement.elements().len()).map(holds).collect()
@@ -186,7 +186,7 @@ fn at_turn(cycles: &Cycles) -> Vec<bool> {
 
 fn in_its_time(
     mut solver: DynamicSolver,
-    places: &[Option<usize>],
+    counterparts: &[Option<usize>],
     stop: &dyn Fn(f64) -> Option<(f64, bool)>,
     interrupt: &AtomicBool,
 ) -> Result<Option<Observed>, SolverError> {
@@ -220,14 +220,14 @@ fn in_its_time(
     let invaded = invaded.unwrap_or_else(|| held(&solver));
     Ok(Some(Observed {
         curves: Vec::new(),
-        invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
+        invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
         measures: solver.measures(&series),
         steps: solver.steps(),
         pores: solver.quasi_static().config.pores.main_region.len(),
     }))
 }
 
-/// For each half cycle that has begun the capillary pressure at each of the saturations.
+/// For each half cycle that has started, the capillary pressure at each saturation.
 fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
     let Some(tension) = config.tension else { return Vec::new() };
     let of_half = |(half_cycle, outcome): (usize, &super::cycles::Outcome)| {
@@ -247,12 +247,12 @@ fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
     cycles.outcomes().iter().enumerate().map(of_half).collect()
 }
 
-/// The pressure at which a half cycle that begins at the saturation `first` has come to each saturation. An event brings all saturations that it passes
-/// at its own pressure; between the `points` of a curve that `is_continuous` it is interpolated. What is there at the beginning needs none, and what
-/// is never reached is beyond any: both are infinite, of the sign that the pressure would have on its way.
+/// The pressure at which a half cycle starting at the saturation `first` reaches each saturation. An event reaches all saturations that it
+/// passes at its own pressure; between the `points` of a curve that `is_continuous` the pressure is interpolated. Initial saturations, which
+/// need no pressure, and those never reached are infinite, with the sign of the limit in the direction of the half cycle.
 fn at_saturations(invading: FluidPhase, first: f64, points: &[[f64; 2]], is_continuous: bool) -> Vec<f64> {
     let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    // Both phases alike: the saturation falls and the pressure rises.
+    // Mapped to one case for both phases: saturation falls and pressure rises.
     let falls: Vec<[f64; 2]> = points.iter().map(|[s, p]| [sign * s, sign * p]).collect();
     let at = |k: usize| {
         let wanted = sign * k as f64 / (SATURATIONS - 1) as f64;
@@ -278,18 +278,18 @@ impl Reference {
         &self.processes
     }
 
-    /// The moment that maps show.
+    /// The moment of the maps.
     pub(crate) fn moment(&self) -> &'static str {
         if self.config.outlet.is_some() { "at breakthrough" } else { "at the end of the first half cycle" }
     }
 
-    /// Number of its parts.
+    /// Number of its elements.
     pub(crate) fn len(&self) -> usize {
         self.elements.len()
     }
 
-    /// For each of its parts the one of another network at the same place; none where the walls are.
-    fn places(&self, config: &Configuration, elements: &[Element]) -> Vec<Option<usize>> {
+    /// For each of its elements the one of another network at the same position; `None` inside walls.
+    fn counterparts(&self, config: &Configuration, elements: &[Element]) -> Vec<Option<usize>> {
         let is_same = config.geometry_hash == self.config.geometry_hash
             && elements.len() == self.elements.len()
             && elements.iter().zip(&self.elements).all(|(one, other)| one.area == other.area);
@@ -301,7 +301,7 @@ impl Reference {
         located(elements, &self.probes, periods)
     }
 
-    /// The probability that a random place of each pore is invaded, as a table of the pores.
+    /// The probability that a random point of each pore is invaded, as a table of pores.
     pub(crate) fn table(&self, probability: &[f64]) -> Table {
         let config = &self.config;
         let pores = config.pores.main_region.len();
@@ -325,12 +325,12 @@ impl Reference {
         }
     }
 
-    /// The same by parts of the pore space.
+    /// The same by element.
     pub(crate) fn layer(&self, probability: &[f64]) -> Layer<'static> {
         layers::invasion(&self.config, &self.elements, probability)
     }
 
-    /// The same as a picture; `note` stands below its title.
+    /// The same as a picture; `note` is printed below its title.
     pub(crate) fn region_map(&self, probability: &[f64], note: String) -> RegionMap {
         pictures::invasion(&self.config, &self.elements, probability, note)
     }
@@ -346,7 +346,7 @@ mod tests {
         let curve = at_saturations(FluidPhase::NonWetting, 0.9, &events, false);
         assert_eq!((curve[100], curve[90], curve[89]), (f64::NEG_INFINITY, f64::NEG_INFINITY, 10.0));
         assert_eq!((curve[50], curve[49], curve[25], curve[24]), (10.0, 20.0, 20.0, f64::INFINITY));
-        // Imbibition the other way: the pressure falls while the wetting phase comes.
+        // Imbibition reversed: the pressure falls while the wetting phase enters.
         let curve = at_saturations(FluidPhase::Wetting, 0.25, &[[0.5, 20.0], [0.75, -10.0]], false);
         assert_eq!((curve[25], curve[26], curve[50], curve[51]), (f64::INFINITY, 20.0, 20.0, -10.0));
         assert_eq!(curve[76], f64::NEG_INFINITY);

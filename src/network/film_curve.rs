@@ -1,10 +1,10 @@
-//! The films of a displacement along its half cycles: between events they grow or shrink with the capillary pressure, so that the curve of
-//! capillary pressure over saturation has points between them.
+//! Corner films along the half cycles: between events they swell or shrink with the capillary pressure, which adds points between events
+//! to the curve of capillary pressure over saturation.
 
 use super::cycles::{Cycles, tidy};
 use super::films::{CurvePoint, SeenFilms};
 
-/// Curvatures in 1/m on the way from one to another, with the last one, so close that a curve through them is smooth.
+/// Curvatures in 1/m from one to another, including the last one, close enough for a smooth curve.
 fn places_between(from: f64, to: f64) -> Vec<f64> {
     const RATIO: f64 = 0.05;
     const MOST: f64 = 64.0;
@@ -22,7 +22,7 @@ fn places_between(from: f64, to: f64) -> Vec<f64> {
 }
 
 impl Cycles {
-    /// Films take the thickness of a curvature in the plane (1/m) into the defending phase, while both phases stay where they are.
+    /// Sets the thickness of films by a curvature in the plane (1/m) into the defending phase; both phases otherwise stay in place.
     pub(super) fn let_films_follow(&mut self, applied: f64) {
         let half = self.half_cycle();
         let Some(films) = &self.films else { return };
@@ -37,7 +37,7 @@ impl Cycles {
         }
     }
 
-    /// Films are where the non-wetting phase is now.
+    /// Updates the films to the present elements of the non-wetting phase.
     pub(super) fn follow_films(&mut self) {
         let invading = self.half_cycle().invading;
         let Some(films) = &mut self.films else { return };
@@ -58,7 +58,7 @@ impl Cycles {
         }
     }
 
-    /// After the last event films go on to the pressure at which the half cycle ends, where one is given.
+    /// After the last event, films follow to the pressure at which the half cycle ends, if given.
     pub(super) fn press_to_the_end(&mut self) {
         let half = self.half_cycle();
         let end = half.conditions.largest_curvature;
@@ -72,7 +72,7 @@ impl Cycles {
         self.outcomes[self.half_cycle].last = Some(applied);
     }
 
-    /// Share of the pore space that films in corners hold.
+    /// Corner films as a fraction of the pore space.
     pub(crate) fn film_saturation(&self) -> f64 {
         self.film_area / self.counted.sum
     }
@@ -82,12 +82,12 @@ impl Cycles {
         self.films.is_some()
     }
 
-    /// The curve of capillary pressure over saturation, where films follow the pressure.
+    /// The curve of capillary pressure over saturation, with films that follow the pressure.
     pub(crate) fn curve(&self) -> &[CurvePoint] {
         &self.curve
     }
 
-    /// What pictures and tables show of films.
+    /// Films for pictures and tables.
     pub(crate) fn seen_films(&self) -> Option<SeenFilms> {
         self.films.as_ref().map(|films| films.seen(&self.displacement))
     }

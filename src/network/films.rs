@@ -1,8 +1,8 @@
-//! What the films in the corners of a chip hold: they count as wetting phase where the non-wetting phase fills an element.
+//! Volume of the corner films of a chip: in elements of the non-wetting phase they count as wetting phase.
 //!
-//! Along each wall of such an element run two films, at the floor and at the lid, with the cross-section r² S each, r = σ/(p_n - p_w). No film is thicker
-//! than where it would meet another one, on its wall or on a plate in the mean of the element. Films around what is trapped keep the pressure at which it was
-//! cut off; all others follow the applied one.
+//! Each wall of such an element has two films, at floor and lid, with the cross-section r² S each, r = σ/(p_n - p_w). Their thickness is
+//! bounded by contact with another film, on the same wall or, on average over the element, on a plate. Films around trapped ganglia keep the
+//! pressure at which these were cut off; all others follow the applied one.
 
 use super::displacement::{Beginning, Displacement, Phase};
 use super::graph::{Network, Throat, WallPiece};
@@ -12,17 +12,18 @@ use crate::interface::depth::Depth;
 use crate::interface::films::{WallFilms, meeting};
 use crate::math::Vec2;
 
-/// The films of a chip as a phase that invades meets them.
+/// The films of a chip for an invading phase.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FilmTerms {
-    /// What floor and lid add to the curvature of menisci.
+    /// Contribution of floor and lid to the curvature of menisci.
     pub(crate) depth: Depth,
     /// By wall.
     pub(crate) walls: Vec<WallFilms>,
 }
 
 impl FilmTerms {
-    /// For each throat the curvature in the plane (1/m, above 0 where it bulges into the non-wetting phase) at which its films meet; infinite without films.
+    /// For each throat the curvature in the plane (1/m, positive if it bulges into the non-wetting phase) at which its films meet; infinite
+    /// without films.
     pub(crate) fn meeting(&self, network: &Network) -> Vec<f64> {
         let throat = |throat: &Throat| {
             let walls = throat.shapes.map(|shape| &self.walls[shape as usize]);
@@ -32,7 +33,7 @@ impl FilmTerms {
         network.throats.iter().map(throat).collect()
     }
 
-    /// (p_n - p_w)/σ in 1/m where a meniscus has this curvature in the plane towards the wetting phase.
+    /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
     pub(crate) fn curvature(&self, in_plane: f64) -> f64 {
         self.depth.curvature(in_plane)
     }
@@ -47,7 +48,7 @@ pub(crate) struct CurvePoint {
     pub(crate) curvature: f64,
     /// Saturation of the wetting phase.
     pub(crate) saturation: f64,
-    /// Share of the pore space that films in corners hold, part of the saturation.
+    /// Corner films as a fraction of the pore space, part of the saturation.
     pub(crate) film_saturation: f64,
 }
 
@@ -85,10 +86,10 @@ impl ElementFilms {
     }
 }
 
-/// Whether an element has films, and what they follow.
+/// Whether an element has films, and which pressure they have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Film {
-    /// The wetting phase fills it.
+    /// None: the wetting phase fills it.
     Absent,
     /// They follow the applied pressure.
     Free,
@@ -102,21 +103,21 @@ pub(crate) struct Films {
     terms: FilmTerms,
     elements: Vec<ElementFilms>,
     states: Vec<Film>,
-    /// Share of each element that counts in saturations.
+    /// Fraction of each element that counts in saturations.
     shares: Vec<f64>,
     /// (p_n - p_w)/σ in 1/m.
     pub(crate) curvature: f64,
 }
 
 impl Films {
-    /// Films before anything is applied: at no capillary pressure in a drainage, at any in an imbibition.
+    /// Initial films: at zero capillary pressure in drainage, infinite in imbibition.
     pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms, shares: Vec<f64>) -> Self {
         let curvature = if invading == FluidPhase::Wetting { f64::INFINITY } else { 0.0 };
         let states = vec![Film::Absent; displacement.elements().len()];
         Self { elements: Vec::new(), states, shares, curvature, terms }.with_terms(displacement, None)
     }
 
-    /// The same at the pressure at which a displacement begins that goes on from another one.
+    /// The same at the initial pressure of a displacement that continues another one.
     pub(crate) fn begun(mut self, invading: FluidPhase, initial: Option<&Beginning>) -> Self {
         let known = initial.and_then(|initial| {
             let held = initial.held.iter().copied();
@@ -126,7 +127,7 @@ impl Films {
         self
     }
 
-    /// The same as another phase meets them that invades now.
+    /// The same with the other phase invading.
     pub(crate) fn with_terms(mut self, displacement: &Displacement, terms: Option<FilmTerms>) -> Self {
         self.terms = terms.unwrap_or(self.terms);
         let count = displacement.elements().len();
@@ -134,7 +135,7 @@ impl Films {
         self
     }
 
-    /// Takes account of what the phases hold now, at the present curvature.
+    /// Updates the films to the present phases at the present curvature.
     pub(crate) fn update(&mut self, displacement: &Displacement, invading: FluidPhase) {
         for (element, state) in self.states.iter_mut().enumerate() {
             let is_wetting = (displacement.phase(element) == Phase::Invading) == (invading == FluidPhase::Wetting);
@@ -147,7 +148,7 @@ impl Films {
         }
     }
 
-    /// (p_n - p_w)/σ in 1/m where a meniscus has this curvature in the plane towards the wetting phase.
+    /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
     pub(crate) fn curvature_at(&self, in_plane: f64) -> f64 {
         self.terms.curvature(in_plane)
     }
@@ -170,13 +171,13 @@ impl Films {
         self.area_at(self.curvature)
     }
 
-    /// The same of those around what is trapped.
+    /// The same of films around trapped ganglia.
     pub(crate) fn trapped_area(&self, displacement: &Displacement) -> f64 {
         let trapped = (0..self.states.len()).filter(|&element| displacement.is_trapped(element));
         trapped.map(|element| self.shares[element] * self.area_of(element, self.curvature)).sum()
     }
 
-    /// What pictures and tables show of them.
+    /// The films for pictures and tables.
     pub(crate) fn seen(&self, displacement: &Displacement) -> SeenFilms {
         let count = self.states.len();
         let volume = |element| self.terms.depth.distance() * self.area_of(element, self.curvature);
@@ -184,7 +185,7 @@ impl Films {
         SeenFilms { volume: (0..count).map(volume).collect(), strips }
     }
 
-    /// The films of an element from above: for each wall the middle of the wider one of both, and its width in m.
+    /// The films of an element from above: for each wall the middle line of the wider film, and its width in m.
     fn strips(&self, displacement: &Displacement, element: usize) -> Vec<(Vec<Vec2>, f64)> {
         const LARGEST_TURN: f64 = 0.1;
         let curvature = match self.states[element] {
@@ -211,7 +212,7 @@ impl Films {
     }
 }
 
-/// What pictures and tables show of films.
+/// Films for pictures and tables.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SeenFilms {
     /// Volume in m³ in each element.

@@ -1,7 +1,7 @@
 //! Flow through a network: permeability of the pore space, and relative permeabilities of both phases along a displacement.
 //!
-//! A phase flows through the throats between two regions that it holds: menisci are closed, and films are left out. Where saturations are those of
-//! `network.region`, both phases pass the manifolds.
+//! A phase flows through throats between two regions that it holds; menisci block the flow, and films are neglected. With `network.region`
+//! both phases pass the manifolds.
 
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::Phase;
@@ -11,13 +11,13 @@ use super::permeability::{Drive, Paths, permeability};
 use super::tables::numbers;
 use crate::table::Table;
 
-/// States of a half cycle, its beginning and its end among them, at which relative permeabilities are found.
+/// Number of states of a half cycle, including first and last, at which relative permeabilities are computed.
 const STATES: u32 = 9;
 
-/// Permeabilities of random packs are within 5 % of Stokes flow above this solid fraction; below, other shapes were up to 25 % off.
+/// Permeabilities of random packs are within 5 % of Stokes flow above this solid fraction; below it, errors of other shapes are up to 25 %.
 pub(crate) const LEAST_SOLID: f64 = 0.3;
 
-/// What can drive a flow along an axis; none where its sides are closed.
+/// The drive of a flow along an axis; `None` if its sides are closed.
 pub(crate) fn drive(config: &Configuration, axis: usize) -> Option<Drive> {
     let opens = |side: usize| config.network.openings.iter().any(|opening| opening.side == side);
     if config.periodic[axis] {
@@ -27,7 +27,7 @@ pub(crate) fn drive(config: &Configuration, axis: usize) -> Option<Drive> {
     }
 }
 
-/// Permeability in m2 for a phase that holds the regions of which `holds` is true.
+/// Permeability in m² for a phase in the regions for which `holds` is true.
 fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowError> {
     let config = &model.config;
     let is_open = |regions: [usize; 2]| regions.iter().all(|&region| holds[region]);
@@ -41,14 +41,14 @@ fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowErro
     permeability(&config.network, Paths { conductance: &conductance, holds }, config.bounds, drive)
 }
 
-/// Permeability of the whole pore space along an axis in m2; NaN where its sides are closed or the flow cannot be solved.
+/// Permeability of the whole pore space along an axis in m²; NaN if its sides are closed or the flow cannot be solved.
 pub(crate) fn along(model: &Model, axis: usize) -> f64 {
     let everywhere = || vec![true; model.config.network.regions.len()];
     let find = || drive(&model.config, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
     model.permeability(axis, || find().unwrap_or(f64::NAN))
 }
 
-/// For each region whether the wetting phase held most of it when these invasions of the last half cycle had taken place, and its saturation.
+/// For each region whether the wetting phase holds most of it after these invasions of the last half cycle, and the saturation.
 fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&Invasion) -> bool) -> (Vec<bool>, f64) {
     let invading = cycles.half_cycle().invading;
     let regions = config.network.regions.len();
@@ -73,24 +73,24 @@ fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&I
     (wetting.iter().zip(&all).map(|(wetting, all)| *wetting > 0.5 * all).collect(), saturation)
 }
 
-/// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, wetting and non-wetting phase.
+/// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, k_r of wetting and non-wetting phase.
 pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
     let Some(cycles) = model.cycles.as_ref() else { return Vec::new() };
     let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
-    // What the beginning fills is counted as displaced; before it, nothing is.
+    // The initial filling counts as displaced; before it, nothing is.
     let at = |share: &f64| if *share > 0.0 { share * displaced } else { -1.0 };
     let states = states.iter().map(at);
     along_displacement(model, states.map(|at| move |invasion: &Invasion| invasion.displaced <= at))
 }
 
-/// The same after so many events of the last half cycle each; none for what was before its beginning.
+/// The same after given numbers of events of the last half cycle; `None` for the state before its initial filling.
 pub(super) fn relative_after(model: &Model, events: &[Option<usize>]) -> Vec<[f64; 3]> {
     let has_come =
         |event: Option<usize>| move |invasion: &Invasion| event.is_some_and(|last| invasion.sequence <= last);
     along_displacement(model, events.iter().map(|&event| has_come(event)))
 }
 
-/// With a region, both phases pass what opens at the inlet and the outlet, which has no saturation.
+/// With `network.region`, both phases pass the manifolds, which do not count in the saturation.
 fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
     let ends = [config.inlet, config.outlet];
     let openings =
@@ -99,7 +99,7 @@ fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
     holds
 }
 
-/// The same at states that are told by which invasions have taken place.
+/// The same at states given by the invasions that have occurred.
 fn along_displacement<F: Fn(&Invasion) -> bool>(model: &Model, states: impl Iterator<Item = F>) -> Vec<[f64; 3]> {
     let config = &model.config;
     let drive = config.inlet.and_then(|inlet| drive(config, inlet / 2));
@@ -112,7 +112,7 @@ fn along_displacement<F: Fn(&Invasion) -> bool>(model: &Model, states: impl Iter
         let (wetting, saturation) = wetting_regions(config, cycles, has_come);
         let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
         let [wetting, other] = [wetting, other].map(|holds| with_manifolds(config, holds));
-        // What a phase carries that is not joined from side to side is rounding.
+        // The flow of a phase that does not percolate is rounding error.
         const ROUNDING: f64 = 1.0e-12;
         let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;
         let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
@@ -121,7 +121,7 @@ fn along_displacement<F: Fn(&Invasion) -> bool>(model: &Model, states: impl Iter
     states.map(state).collect()
 }
 
-/// `relative_permeability.csv`; none where nothing flows from side to side.
+/// `relative_permeability.csv`; `None` if nothing flows from side to side.
 pub(crate) fn table(model: &Model) -> Option<Table> {
     let states: Vec<f64> = (0..STATES).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
     let rows = relative(model, &states);

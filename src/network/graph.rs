@@ -1,18 +1,18 @@
 //! The network as a graph: pore regions bounded by walls and chords, and the throats between them.
 //!
-//! A pore region belongs to one local maximum of the wall distance. Its boundary is one closed loop that alternates between stretches of
-//! wall and chords of throats (or openings of open sides), run through with the pore on the right. Positions of a loop are continuous:
-//! in periodic domains they may leave the domain, and [`Throat::shift`] leads from the frame of one region to that of its neighbor.
+//! A pore region belongs to one local maximum of the wall distance. Its boundary is a closed loop that alternates between stretches of
+//! wall and chords of throats (or openings of open sides), with the pore on the right. Positions along a loop are continuous: in periodic
+//! domains they may leave the domain, and [`Throat::shift`] transforms from the frame of one region to that of its neighbor.
 
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
-/// A piece of wall with the shape that it belongs to; the solid lies on its left.
+/// A piece of wall with its shape; the solid lies on its left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallPiece {
-    /// Where it runs, in the frame of its region; cut at chords.
+    /// Its curve in the frame of its region, cut at chords.
     pub curve: Curve,
-    /// The piece of wall that it is a part of, before chords cut it; a full circle for a disc.
+    /// The uncut piece of wall of which it is a part; a full circle for a disc.
     pub whole: Curve,
     /// Index of the written shape; walls at the left, right, bottom and top side follow after the last shape.
     pub shape: u32,
@@ -21,7 +21,7 @@ pub struct WallPiece {
 /// One part of the boundary of a region.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Edge {
-    /// A stretch of wall between two chords: pieces that follow each other, pore on the right.
+    /// A stretch of wall between two chords: consecutive pieces, pore on the right.
     Wall(Vec<WallPiece>),
     /// The chord of a throat.
     Throat {
@@ -29,18 +29,18 @@ pub enum Edge {
         throat: usize,
         /// Which of the two regions of the throat this one is, 0 or 1.
         end: usize,
-        /// Where the chord begins in m: the wall before it ends there.
+        /// Start of the chord in m, the end of the wall before it.
         from: Vec2,
-        /// Where it ends in m.
+        /// End in m.
         to: Vec2,
     },
     /// An interval of an open side between two walls.
     Opening {
         /// Index of the opening.
         opening: usize,
-        /// Where it begins in m.
+        /// Start in m.
         from: Vec2,
-        /// Where it ends in m.
+        /// End in m.
         to: Vec2,
     },
 }
@@ -62,20 +62,20 @@ pub struct Region {
     pub centroid: Vec2,
 }
 
-/// A saddle of the wall distance: the narrowest place between two pores.
+/// A saddle of the wall distance: the narrowest cross-section between two pores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Throat {
-    /// Distance of the two contacts in m.
+    /// Distance between the two contacts in m.
     pub width: f64,
     /// The contacts P and Q in m, in the frame of the first region.
     pub contacts: [Vec2; 2],
     /// Written shapes of the walls at P and Q.
     pub shapes: [u32; 2],
-    /// Signed curvature of the walls at P and Q in 1/m, above 0 where the solid is convex; infinite at a vertex.
+    /// Signed curvature of the walls at P and Q in 1/m, positive for a convex solid; infinite at a vertex.
     pub curvatures: [f64; 2],
-    /// The regions on both sides; equal where an island stands in a pore or the domain is periodic.
+    /// The regions on both sides; they may be equal around an island in a pore or in a periodic domain.
     pub regions: [usize; 2],
-    /// What is added to a position in the frame of the first region to get that in the frame of the second, in m.
+    /// Shift in m from the frame of the first region to that of the second.
     pub shift: Vec2,
 }
 
@@ -106,21 +106,21 @@ pub struct Network {
     pub throats: Vec<Throat>,
     /// The openings at open sides.
     pub openings: Vec<Opening>,
-    /// Distance of floor and lid in m; none in the plane.
+    /// Distance between floor and lid in m; `None` in the plane.
     pub depth: Option<f64>,
 }
 
 /// Regions joined by the persistence ratio.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pores {
-    /// The ratio f: a throat is dissolved where its half width exceeds f times the smaller inscribed radius.
+    /// The ratio f: a throat is dissolved if its half width exceeds f times the smaller inscribed radius.
     pub persistence: f64,
     /// The pore of each region.
     pub pore_of: Vec<usize>,
-    /// The region of each pore whose inscribed circle is the largest.
+    /// The region of each pore with the largest inscribed circle.
     pub main_region: Vec<usize>,
     /// Area of each pore in m2.
     pub area: Vec<f64>,
-    /// The throats that are left; their regions may be of one pore.
+    /// The remaining throats; both regions of one may belong to the same pore.
     pub throats: Vec<usize>,
 }

@@ -1,4 +1,4 @@
-//! What of a network follows from the geometry alone, so that cases of the same geometry share it: regions, throats and pores.
+//! The part of a network that depends on the geometry alone and is shared by cases of the same geometry: regions, throats and pores.
 
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
@@ -12,13 +12,13 @@ use crate::case::{Case, SIDES, Side};
 use crate::geometry::Geometry;
 use crate::snapshot::Lines;
 
-/// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
+/// Largest error of the walls in pictures, over the longer side of the domain: far below visible.
 const OUTLINE_ERROR: f64 = 1e-5;
 
-/// The solids of a case as its network sees them: periodic sides joined, wall sides closed.
+/// The solids of a case for its network: periodic sides joined, wall sides closed.
 ///
 /// # Errors
-/// [`SetupError::Geometry`] with what is wrong with the shapes.
+/// [`SetupError::Geometry`] if the shapes are invalid.
 pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
     let sides = network.sides.each();
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
@@ -26,11 +26,11 @@ pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, S
     Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
 }
 
-/// A network that was extracted, with nothing in it.
+/// An extracted network without fluids.
 pub(crate) struct Ground {
     /// The walls.
     pub(crate) geometry: Geometry,
-    /// The network at the depth of the case that it was extracted for.
+    /// The network at the depth of the case for which it was extracted.
     pub(crate) network: Arc<Network>,
     /// Its regions joined to pores.
     pub(crate) pores: Arc<Pores>,
@@ -38,7 +38,7 @@ pub(crate) struct Ground {
     pub(crate) outline: Arc<Lines<'static>>,
     /// The hash of the geometry in hexadecimal digits.
     pub(crate) hash: String,
-    /// Time that the extraction took, in s.
+    /// Wall time of the extraction in s.
     pub(crate) seconds: f64,
     is_shared: bool,
     conductances: OnceLock<Vec<f64>>,
@@ -50,7 +50,7 @@ impl Ground {
     /// The network of a case.
     ///
     /// # Errors
-    /// [`SetupError`] where the pores cannot be told apart, or an open side is closed.
+    /// [`SetupError`] if extraction fails, or an open side is closed by solids.
     pub(crate) fn of(case: &Case, wanted: &PoreNetwork) -> Result<Self, SetupError> {
         let clock = Instant::now();
         let geometry = geometry(case, wanted)?;
@@ -86,18 +86,18 @@ impl Ground {
         })
     }
 
-    /// The same for many cases: what any of them finds of the geometry is kept.
+    /// The same for many cases: derived quantities of the geometry are cached.
     pub(crate) fn shared(self) -> Self {
         Self { is_shared: true, ..self }
     }
 
-    /// The pore space as these events fill it, where it is kept.
+    /// The division of the pore space for these events, if cached.
     pub(crate) fn division(&self, events: Events) -> Option<&Division> {
         let find = || Division::of(&self.network, &self.pores, events);
         self.is_shared.then(|| self.divisions[usize::from(events == Events::All)].get_or_init(find))
     }
 
-    /// Permeabilities along x and y at the depth of the case that it was extracted for, as `find` finds them.
+    /// Permeabilities along x and y at the depth of the case for which it was extracted, computed by `find` once.
     pub(crate) fn permeabilities(&self, find: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
         *self.permeabilities.get_or_init(find)
     }
@@ -116,7 +116,7 @@ impl Ground {
         self.geometry.shape_count() as usize + SIDES.len()
     }
 
-    /// The conductances of all throats at the depth of the case that it was extracted for.
+    /// The conductances of all throats at the depth of the case for which it was extracted.
     pub(crate) fn conductances(&self) -> &[f64] {
         self.conductances.get_or_init(|| conductances(&self.network))
     }

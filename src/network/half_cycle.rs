@@ -1,4 +1,4 @@
-//! One drainage or imbibition: which phase invades, under which conditions, and where it ends.
+//! One drainage or imbibition: the invading phase, the conditions, and the end.
 
 use super::displacement::Conditions;
 use super::films::FilmTerms;
@@ -13,8 +13,8 @@ impl FluidPhase {
         }
     }
 
-    /// Curvature of menisci bulging into the wetting phase in 1/m for one that bulges into the defending phase by `curvature` where this
-    /// fluid invades, so that tension times it is p_n - p_w.
+    /// Converts a `curvature` (1/m) of menisci, positive into the defending phase while this fluid invades, to one that is positive into the
+    /// wetting phase, so that tension times it is p_n - p_w.
     pub(crate) fn towards_wetting(self, curvature: f64) -> f64 {
         match self {
             Self::NonWetting => curvature,
@@ -31,25 +31,25 @@ impl FluidPhase {
     }
 }
 
-/// Where a half cycle ends before it comes to rest.
+/// Conditions that end a half cycle early.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct End {
     /// When the invading phase reaches the outlet.
     pub at_breakthrough: bool,
-    /// When the invading phase fills this share of the pore space.
+    /// At this saturation of the invading phase.
     pub at_saturation: Option<f64>,
 }
 
 /// One drainage or imbibition.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfCycle {
-    /// The phase that invades.
+    /// The invading phase.
     pub(crate) invading: FluidPhase,
     /// Angles, open sides and the largest applied curvature.
     pub conditions: Conditions,
-    /// Where it ends early.
+    /// Its early end.
     pub end: End,
-    /// The films in corners, where there are any.
+    /// The corner films, if any.
     pub(crate) films: Option<FilmTerms>,
 }
 
@@ -62,8 +62,8 @@ impl HalfCycle {
         }
     }
 
-    /// Curvature of menisci bulging into the wetting phase for one that bulges into the defending phase by `curvature`, so that
-    /// tension times it is p_n - p_w.
+    /// Converts a `curvature` of menisci, positive into the defending phase, to one that is positive into the wetting phase, so that tension
+    /// times it is p_n - p_w.
     pub(crate) fn towards_wetting(&self, curvature: f64) -> f64 {
         self.invading.towards_wetting(curvature)
     }

@@ -1,11 +1,11 @@
 //! Flow in a graph of conductors: one pressure per node, flows that sum to the source of every node.
 //!
-//! The matrix is a graph Laplacian, symmetric and positive definite once one node of each part that hangs on no given pressure has the
-//! pressure 0. It is factored by Cholesky; where it has its entries is found once per graph.
+//! The matrix is a graph Laplacian, symmetric and positive definite once one node of each component without a given pressure has the
+//! pressure 0. It is factored by Cholesky, with one symbolic factorization per graph.
 //!
-//! Conductances may differ by more than the digits of a number: open throats lead a fluid far better than menisci let it go. Nodes that are
-//! joined by conductors marked as good are a cluster. Its unknowns are the pressure of one of its nodes and the differences of the others
-//! from it, so that the sum of what flows out of a cluster is an equation of its own, in which what flows within does not stand.
+//! The ratio of conductances may exceed the range of double precision: open throats conduct far better than menisci. Nodes joined by
+//! conductors marked as good form a cluster. Its unknowns are the pressure of one of its nodes and the differences of the others from it, so
+//! that the balance of a cluster is an equation of its own, without the flows inside.
 
 use faer::Side;
 use faer::linalg::solvers::Solve;
@@ -14,7 +14,7 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 
 use crate::math::{factor_in_one_thread, root};
 
-/// A network that does not fit into the memory as a matrix, or whose conductances are no numbers above 0.
+/// The matrix of a network does not fit into memory, or its conductances are not positive numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the flow through a network of {nodes} nodes could not be solved: its conductances differ too much, or memory is short"
@@ -24,15 +24,15 @@ pub struct FlowError {
     pub nodes: usize,
 }
 
-/// Where a conductor begins and ends; without an end it leads to a given pressure.
+/// Start and end node of a conductor; without an end it leads to a given pressure.
 pub(crate) type Ends = (usize, Option<usize>);
 
-/// What drives a flow through a conductor: flow = conductance × (pressure of its first node + jump − pressure of its second node).
+/// A conductor: flow = conductance × (pressure of its first node + jump − pressure of its second node).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Conductor {
     /// Flow over pressure difference, above 0.
     pub(crate) conductance: f64,
-    /// Pressure difference between both ends besides that of the nodes.
+    /// Additional pressure difference between both ends.
     pub(crate) jump: f64,
 }
 
@@ -41,15 +41,15 @@ pub(crate) struct Conductor {
 pub(crate) struct Flow {
     /// Pressure of each node.
     pub(crate) pressure: Vec<f64>,
-    /// Flow through each conductor, from its first node to its second. Sums over a node are right to rounding of the flows, however
-    /// much larger pressures are than their differences.
+    /// Flow through each conductor, from its first node to its second. Node balances hold to rounding of the flows, however much larger
+    /// pressures are than their differences.
     pub(crate) through: Vec<f64>,
 }
 
 /// A conductor of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Edge {
-    /// Where it begins and ends.
+    /// Start and end.
     pub(crate) ends: Ends,
     /// Whether it may conduct far better than others.
     pub(crate) is_good: bool,
@@ -62,9 +62,9 @@ pub(crate) struct Laplacian {
     edges: Vec<Edge>,
     /// By edge.
     incidences: Vec<Incidence>,
-    /// Of each node the unknowns whose sum is its pressure: that of its cluster and its own.
+    /// For each node the unknowns whose sum is its pressure: that of its cluster and its own.
     rows_of: Vec<[Option<usize>; 2]>,
-    /// None where there is nothing to solve.
+    /// `None` if there is nothing to solve.
     pattern: Option<Pattern>,
 }
 
@@ -76,11 +76,11 @@ struct Pattern {
     size: usize,
 }
 
-/// Most corrections of the flows by what is left over in each node.
+/// Maximum number of corrections of the flows by the residuals of the nodes.
 const REFINEMENTS: usize = 12;
-/// What may be left over in a node, over the largest flow.
+/// Tolerance of the residual of a node, over the largest flow.
 const LEFT: f64 = 1e-15;
-/// Where more is left over after a correction than this share of what was before, it is rounding.
+/// Least reduction of the residual by a correction; otherwise it is rounding.
 const IMPROVED: f64 = 0.5;
 
 /// The unknowns that an edge joins, with their signs in the difference of pressures.
@@ -90,7 +90,7 @@ impl Laplacian {
     /// The graph of conductors between `nodes` nodes.
     ///
     /// # Errors
-    /// [`FlowError`] where it does not fit into the memory.
+    /// [`FlowError`] if it does not fit into memory.
     pub(crate) fn new(nodes: usize, edges: Vec<Edge>) -> Result<Self, FlowError> {
         factor_in_one_thread();
         let (rows_of, size) = unknowns(nodes, &edges);
@@ -107,7 +107,7 @@ impl Laplacian {
         Ok(laplacian)
     }
 
-    /// Whether a source in a node has a way to a given pressure.
+    /// Whether a node is connected to a given pressure.
     pub(crate) fn hangs_on_a_pressure(&self, node: usize) -> bool {
         let mut parent = parts(self.nodes, self.edges.iter().map(|edge| edge.ends));
         let part = root(&mut parent, node);
@@ -134,7 +134,7 @@ impl Laplacian {
     /// The conductances, ready to be solved with.
     ///
     /// # Errors
-    /// [`FlowError`] where a conductance is not a number above 0.
+    /// [`FlowError`] if a conductance is not a positive number.
     pub(crate) fn factor(&self, conductances: Vec<f64>) -> Result<Factored<'_>, FlowError> {
         let error = FlowError { nodes: self.nodes };
         let Some(Pattern { matrix, order, elimination, .. }) = &self.pattern else {
@@ -151,7 +151,7 @@ impl Laplacian {
     /// Pressures and flows, with the sources of all nodes.
     ///
     /// # Errors
-    /// [`FlowError`] where a conductance is not a number above 0.
+    /// [`FlowError`] if a conductance is not a positive number.
     pub(crate) fn solve(&self, conductors: &[Conductor], sources: &[f64]) -> Result<Flow, FlowError> {
         let jumps: Vec<f64> = conductors.iter().map(|conductor| conductor.jump).collect();
         let factored = self.factor(conductors.iter().map(|conductor| conductor.conductance).collect())?;
@@ -165,7 +165,7 @@ impl Laplacian {
 pub(crate) struct Factored<'a> {
     laplacian: &'a Laplacian,
     conductances: Vec<f64>,
-    /// None where there is nothing to solve.
+    /// `None` if there is nothing to solve.
     factors: Option<Llt<usize, f64>>,
 }
 
@@ -175,11 +175,11 @@ impl Factored<'_> {
         &self.conductances
     }
 
-    /// Pressures and flows with the jumps of all conductors and the sources of all nodes, as far as one solution goes: what is left over
-    /// in a node is rounding of pressures.
+    /// Pressures and flows with the jumps of all conductors and the sources of all nodes, by one solution without refinement: residuals of the
+    /// nodes are the rounding error of pressures.
     ///
     /// # Errors
-    /// [`FlowError`] where they are no numbers.
+    /// [`FlowError`] if they are not finite.
     pub(crate) fn solve(&self, jumps: &[f64], sources: &[f64]) -> Result<Flow, FlowError> {
         let mut flow = Flow {
             pressure: vec![0.0; self.laplacian.nodes],
@@ -190,10 +190,10 @@ impl Factored<'_> {
         self.finite(flow)
     }
 
-    /// Corrects flows by what is left over in each node until that is rounding of flows.
+    /// Corrects flows by the residuals of the nodes until these are rounding errors of flows.
     ///
     /// # Errors
-    /// [`FlowError`] where they are no numbers.
+    /// [`FlowError`] if they are not finite.
     pub(crate) fn balance(&self, flow: &mut Flow, sources: &[f64]) -> Result<(), FlowError> {
         let mut before = f64::INFINITY;
         for _ in 0..REFINEMENTS {
@@ -214,7 +214,7 @@ impl Factored<'_> {
         if is_finite { Ok(flow) } else { Err(FlowError { nodes: self.laplacian.nodes }) }
     }
 
-    /// What is left over by unknown, and the largest flow.
+    /// Residuals by unknown, and the largest flow.
     fn left_over(&self, flow: &Flow, sources: &[f64]) -> (faer::Mat<f64>, f64) {
         let graph = self.laplacian;
         let size = graph.pattern.as_ref().map_or(0, |pattern| pattern.size);
@@ -254,7 +254,7 @@ fn incidence(edge: &Edge, rows_of: &[[Option<usize>; 2]]) -> Incidence {
     let minus = |row: Option<usize>| row.map(|row| (row, -1.0));
     let mut all = [plus(from[0]), plus(from[1]), minus(to[0]), minus(to[1])];
     for k in 0..2 {
-        // The pressure of a cluster drives nothing within it, nor that of a node from it to itself around the period.
+        // The pressure of a cluster drives no flow within it, nor that of a node to its own periodic image.
         if from[k] == to[k] {
             (all[k], all[k + 2]) = (None, None);
         }
@@ -266,7 +266,7 @@ fn plus(row: Option<usize>) -> Option<(usize, f64)> {
     row.map(|row| (row, 1.0))
 }
 
-/// The unknowns of each node and their number: one node of each part without a given pressure has the pressure 0.
+/// The unknowns of each node and their number: one node of each component without a given pressure has the pressure 0.
 fn unknowns(nodes: usize, edges: &[Edge]) -> (Vec<[Option<usize>; 2]>, usize) {
     let mut parent = parts(nodes, edges.iter().map(|edge| edge.ends));
     let mut cluster = parts(nodes, edges.iter().filter(|edge| edge.is_good).map(|edge| edge.ends));
@@ -283,7 +283,7 @@ fn unknowns(nodes: usize, edges: &[Edge]) -> (Vec<[Option<usize>; 2]>, usize) {
     let found = (0..nodes)
         .map(|node| {
             let (part, first) = (root(&mut parent, node), root(&mut cluster, node));
-            // The first node of a part is the first of its cluster, since the smallest index names both.
+            // The first node of a component is the first of its cluster, since the smallest index labels both.
             if first == node && (part != node || is_given[part]) {
                 of_cluster[node] = Some(next());
             }
@@ -293,7 +293,7 @@ fn unknowns(nodes: usize, edges: &[Edge]) -> (Vec<[Option<usize>; 2]>, usize) {
     (found, rows)
 }
 
-/// A forest whose roots name the parts of the graph: the smallest index of each.
+/// A union-find forest whose roots label the components of the graph by their smallest index.
 fn parts(nodes: usize, ends: impl Iterator<Item = Ends>) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..nodes).collect();
     for (from, to) in ends {

@@ -1,4 +1,4 @@
-//! The network as VTK sees it: pores as points, throats as lines, regions as polygons, menisci as lines.
+//! The network for VTK: pores as points, throats as lines, regions as polygons, menisci as lines.
 
 use super::cycles::{FluidPhase, Invasion};
 use super::displacement::Element;
@@ -9,7 +9,7 @@ use super::tables::{arms, center, kept, length, pores_of, radius};
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Field, Layer, Lines, Values};
 
-/// Sequence number of what no event filled.
+/// Sequence number of elements that no event filled.
 const NOT_INVADED: i64 = -1;
 
 fn scalar(name: &'static str, unit: &'static str, values: impl IntoIterator<Item = f64>) -> Field<'static> {
@@ -20,7 +20,7 @@ fn integer(name: &'static str, values: impl IntoIterator<Item = i64>) -> Field<'
     Field { name, unit: "", values: Values::Integer(values.into_iter().collect::<Vec<_>>().into()) }
 }
 
-/// Numbers as in all other files: 0 wetting, 1 non-wetting.
+/// Phase numbers as in all other files: 0 wetting, 1 non-wetting.
 fn phase(fluid: FluidPhase) -> i64 {
     i64::from(fluid == FluidPhase::NonWetting)
 }
@@ -42,7 +42,7 @@ pub(crate) fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
     Lines { points: points.into(), lines, fields: Vec::new() }
 }
 
-/// The parts of the pore space that events fill, with pore, phase, sequence and capillary pressure at invasion.
+/// The elements, with pore, phase, sequence and capillary pressure at invasion.
 pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -> Layer<'static> {
     let pores = &config.pores;
     let Some(occupation) = occupation else { return plain_regions(config) };
@@ -69,7 +69,7 @@ pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 
-/// The parts of the pore space with the probability that each is invaded.
+/// The elements with their probability of invasion.
 pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64]) -> Layer<'static> {
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
     let fields = vec![
@@ -116,7 +116,7 @@ pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) 
     vec![pores, throats(model)]
 }
 
-/// Two lines each, from the pore centers to the middle of the throat.
+/// Two lines per throat, from the pore centers to the middle of the throat.
 fn throats(model: &Model) -> Layer<'static> {
     let config = &model.config;
     let (points, cells) =

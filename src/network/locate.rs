@@ -1,24 +1,24 @@
-//! Places in the parts of a pore space.
+//! Point location in elements.
 
 use super::displacement::Element;
 use crate::math::{Bounds, Vec2};
 
-/// A point within an outline: its centroid where that lies within, else the middle of the widest piece of a line across it.
+/// A point within an outline: its centroid if inside, else the middle of the longest segment of a line across it.
 pub(super) fn inner_point(outline: &[Vec2]) -> Vec2 {
     let centroid = centroid(outline);
     if contains(outline, centroid) {
         return centroid;
     }
     let Some(bounds) = Bounds::around(outline.iter().copied()) else { return centroid };
-    // Off the middle, where no vertex is expected.
+    // Off the middle, where a vertex is unlikely.
     const SHARE: f64 = 0.508;
     let y = bounds.min.y + SHARE * bounds.size().y;
-    let mut places: Vec<f64> = edges(outline)
+    let mut crossings: Vec<f64> = edges(outline)
         .filter(|(a, b)| (a.y > y) != (b.y > y))
         .map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y))
         .collect();
-    places.sort_by(f64::total_cmp);
-    let widest = places.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    crossings.sort_by(f64::total_cmp);
+    let widest = crossings.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     widest.map_or(centroid, |piece| Vec2::new(0.5 * (piece[0] + piece[1]), y))
 }
 
@@ -45,7 +45,7 @@ fn contains(outline: &[Vec2], x: Vec2) -> bool {
     edges(outline).filter(to_the_right).count() % 2 == 1
 }
 
-/// Boxes of a regular grid with the elements that reach into them.
+/// Cells of a regular grid with the elements that overlap them.
 struct Cells<'e> {
     elements: &'e [Element],
     bounds: Bounds,
@@ -86,15 +86,15 @@ impl<'e> Cells<'e> {
     }
 }
 
-/// For each place in m the element that it lies in; none where there is none. Outlines of a domain of these periods may reach beyond it.
-pub(super) fn located(elements: &[Element], places: &[Vec2], periods: [Option<f64>; 2]) -> Vec<Option<usize>> {
-    let Some(cells) = Cells::new(elements) else { return vec![None; places.len()] };
+/// For each point in m the element in which it lies, or `None`. Outlines may extend past the domain, which has these periods.
+pub(super) fn located(elements: &[Element], points: &[Vec2], periods: [Option<f64>; 2]) -> Vec<Option<usize>> {
+    let Some(cells) = Cells::new(elements) else { return vec![None; points.len()] };
     let shifts = periods.map(|period| period.map_or(vec![0.0], |period| vec![0.0, period, -period]));
-    let find = |place: &Vec2| {
+    let find = |point: &Vec2| {
         let mut images = shifts[0].iter().flat_map(|&x| shifts[1].iter().map(move |&y| Vec2::new(x, y)));
-        images.find_map(|shift| cells.at(place + shift))
+        images.find_map(|shift| cells.at(point + shift))
     };
-    places.iter().map(find).collect()
+    points.iter().map(find).collect()
 }
 
 #[cfg(test)]
@@ -121,8 +121,8 @@ mod tests {
             outline: outline(&[[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]),
         };
         let elements = [square(0.0), square(1.0), square(2.0)];
-        let places = [Vec2::new(1.5, 0.5), Vec2::new(-0.5, 0.5), Vec2::new(0.5, 2.0)];
-        assert_eq!(located(&elements, &places, [Some(3.0), None]), [Some(1), Some(2), None]);
-        assert_eq!(located(&elements, &places, [None; 2]), [Some(1), None, None]);
+        let points = [Vec2::new(1.5, 0.5), Vec2::new(-0.5, 0.5), Vec2::new(0.5, 2.0)];
+        assert_eq!(located(&elements, &points, [Some(3.0), None]), [Some(1), Some(2), None]);
+        assert_eq!(located(&elements, &points, [None; 2]), [Some(1), None, None]);
     }
 }

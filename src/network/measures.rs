@@ -53,7 +53,7 @@ pub(crate) fn with_costly(model: &Model, costly: Costly) -> Vec<Measure> {
     found
 }
 
-/// The measures that know no displacement.
+/// The measures without a displacement.
 pub(crate) fn of_network_with_flow(model: &Model) -> Vec<Measure> {
     of_network_with(model, Costly::ALL)
 }
@@ -134,7 +134,7 @@ fn entry_pressures(model: &Model) -> Vec<Measure> {
     ]
 }
 
-/// How many entry pressures were measured, where any are given.
+/// Number of measured entry pressures, if any are given.
 fn replaced(model: &Model) -> Option<Measure> {
     let first = model.cycles.as_ref().map(|cycles| &cycles.half_cycles()[0].conditions);
     let conditions = first.or(model.config.entry.as_ref()).filter(|conditions| !conditions.measured.is_empty())?;
@@ -229,7 +229,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     found
 }
 
-/// What a cycle of drainage and imbibition dissipates.
+/// Work dissipated by a cycle of drainage and imbibition.
 fn hysteresis(config: &Configuration, cycles: &Cycles) -> Option<Measure> {
     if cycles.half_cycles().len() < 2 || !cycles.is_done() {
         return None;
@@ -246,7 +246,7 @@ fn hysteresis(config: &Configuration, cycles: &Cycles) -> Option<Measure> {
     ))
 }
 
-/// The integral of curvature over saturation from a half cycle on, in 1/m, by the trapezoidal rule between the points of the curve.
+/// The integral of curvature over saturation in 1/m from a half cycle on, by the trapezoidal rule between the points of the curve.
 fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
     let pairs = cycles.curve().windows(2).filter(|pair| pair[0].half_cycle >= first);
     let within = pairs.filter(|pair| pair[0].half_cycle == pair[1].half_cycle);
@@ -255,11 +255,11 @@ fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
         .sum::<f64>()
 }
 
-/// The same where saturations change at events alone.
+/// The same if saturations change only at events.
 fn work_of_events(config: &Configuration, cycles: &Cycles, last: usize) -> f64 {
     let mut work = 0.0;
     for (half, outcome) in cycles.outcomes().iter().enumerate().skip(last) {
-        // No pressure holds back what enters through openings at the beginning of either.
+        // The initial filling through openings needs no pressure.
         let mut before = outcome.first_saturation[1];
         for entry in cycles.history().iter().filter(|entry| entry.half_cycle == half) {
             work -= config.curvature(cycles.half_cycles()[half].invading, entry.applied) * (entry.saturation - before);

@@ -1,7 +1,7 @@
-//! Regions joined to pores by persistence: a throat nearly as wide as the smaller of its pores divides nothing.
+//! Regions merged to pores by persistence: a throat nearly as wide as the smaller of its pores does not separate them.
 //!
-//! Throats are taken from wide to narrow. Where half the width exceeds f times the smaller of both inscribed radii, both pores become one.
-//! Loops stay: two pores may keep two throats, and a pore one to itself.
+//! Throats are processed from wide to narrow. If half the width exceeds f times the smaller of both inscribed radii, both pores are merged.
+//! Loops remain: two pores may keep two throats, and a pore one to itself.
 
 use crate::math::root;
 use crate::network::graph::{Network, Pores};
@@ -10,7 +10,7 @@ impl Pores {
     /// The pores for the persistence ratio f, above 0 and at most 1; 1 keeps all.
     pub fn merged(network: &Network, persistence: f64) -> Self {
         let regions = &network.regions;
-        // The region with the largest circle stands for its set.
+        // The region with the largest circle represents its set.
         let mut parent: Vec<usize> = (0..regions.len()).collect();
         let mut order: Vec<usize> = (0..network.throats.len()).collect();
         order.sort_by(|&a, &b| network.throats[b].width.total_cmp(&network.throats[a].width).then(a.cmp(&b)));

@@ -1,4 +1,4 @@
-//! What is known of a network, as its writers read it: what stands still, and the displacement in it.
+//! The data of a network for output: its static configuration and its displacement.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::interface::depth::Depth;
 use crate::math::Bounds;
 use crate::snapshot::Lines;
 
-/// What stands still: the network and what is known of its walls and fluids.
+/// The static configuration: the network, its walls and fluids.
 #[derive(Debug, Clone)]
 pub struct Configuration {
     /// The network.
@@ -22,7 +22,7 @@ pub struct Configuration {
     pub pores: Arc<Pores>,
     /// The domain.
     pub bounds: Bounds,
-    /// Whether it is joined along x and y.
+    /// Whether it is periodic along x and y.
     pub periodic: [bool; 2],
     /// The side that is the inlet: left, right, bottom, top are 0 to 3.
     pub inlet: Option<usize>,
@@ -30,13 +30,13 @@ pub struct Configuration {
     pub outlet: Option<usize>,
     /// The walls, for pictures.
     pub outline: Arc<Lines<'static>>,
-    /// Pore area over the area of the domain or of its region.
+    /// Porosity: pore area over the area of the domain or of its region.
     pub porosity: f64,
     /// Interfacial tension in N/m.
     pub tension: Option<f64>,
-    /// Floor and lid as the non-wetting and as the wetting phase meets them where it invades; none in the plane.
+    /// Floor and lid with the angles for invasion by the non-wetting and by the wetting phase; `None` in the plane.
     pub depth: Option<[Depth; 2]>,
-    /// Viscosities of the wetting and the non-wetting phase in Pa s, where they are given.
+    /// Viscosities of the wetting and the non-wetting phase in Pa s, if given.
     pub viscosities: [Option<f64>; 2],
     /// Conditions of a drainage, for entry pressures.
     pub entry: Option<Conditions>,
@@ -44,51 +44,51 @@ pub struct Configuration {
     pub geometry_hash: String,
     /// The left, right, bottom and top side.
     pub sides: [Side; 4],
-    /// Where saturations and the porosity are taken, where that is not the whole domain.
+    /// The region of saturations and porosity, if it is not the whole domain.
     pub region: Option<Bounds>,
-    /// Saturation functions that are written.
+    /// Saturation functions to write.
     pub(crate) tables: Tables,
 }
 
 impl Configuration {
-    /// Capillary pressure p_n - p_w in Pa where a phase invades, of a meniscus with this curvature in the plane (1/m), above 0 where it bulges into the
-    /// wetting phase; NaN where no tension is given.
+    /// Capillary pressure p_n - p_w in Pa during invasion by a phase, at a meniscus of this curvature in the plane (1/m), positive if it bulges
+    /// into the wetting phase; NaN without a tension.
     pub(crate) fn pressure(&self, invading: FluidPhase, curvature: f64) -> f64 {
         self.tension.unwrap_or(f64::NAN) * self.curvature(invading, curvature)
     }
 
-    /// (p_n - p_w)/σ in 1/m of such a meniscus: floor and lid curve it too.
+    /// (p_n - p_w)/σ in 1/m of such a meniscus, including the curvature by floor and lid.
     pub(crate) fn curvature(&self, invading: FluidPhase, in_plane: f64) -> f64 {
         self.depth_met_by(invading).map_or(in_plane, |depth| depth.curvature(in_plane))
     }
 
-    /// Floor and lid as a phase that invades meets them; none in the plane.
+    /// Floor and lid with the angles for an invading phase; `None` in the plane.
     pub(crate) fn depth_met_by(&self, invading: FluidPhase) -> Option<Depth> {
         self.depth.map(|[drainage, imbibition]| if invading == FluidPhase::Wetting { imbibition } else { drainage })
     }
 
-    /// The length of a period along x and y in m; none where the domain ends.
+    /// The length of a period along x and y in m; `None` if not periodic.
     pub(crate) fn periods(&self) -> [Option<f64>; 2] {
         [0, 1].map(|axis| self.periodic[axis].then(|| self.bounds.size()[axis]))
     }
 
-    /// What a saturation is a share of.
+    /// The reference of saturations, as text.
     pub(crate) fn space(&self) -> &'static str {
         if self.region.is_some() { "pore space of network.region without manifolds" } else { "pore space" }
     }
 
-    /// Distance of floor and lid in m; 1 in the plane, where volumes and rates are those per meter of depth.
+    /// Distance between floor and lid in m; 1 in the plane, where volumes and rates are per meter of depth.
     pub(crate) fn thickness(&self) -> f64 {
         self.network.depth.unwrap_or(1.0)
     }
 }
 
-/// A network with its displacement, and what is found from it once.
+/// A network with its displacement and cached derived quantities.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
-    /// What stands still.
+    /// The static configuration.
     pub(crate) config: Configuration,
-    /// The displacement; none where the network is extracted only.
+    /// The displacement; `None` if the network is only extracted.
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
     conductances: OnceCell<Vec<f64>>,
@@ -96,7 +96,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// A network with nothing displaced yet.
+    /// A network in its initial state.
     pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
         Self {
             config,
@@ -107,24 +107,24 @@ impl Model {
         }
     }
 
-    /// The same with permeabilities along x and y that are known.
+    /// The same with known permeabilities along x and y.
     pub(crate) fn with_permeabilities(mut self, permeabilities: [f64; 2]) -> Self {
         self.permeabilities = permeabilities.map(OnceCell::from);
         self
     }
 
-    /// The permeability along an axis, as `find` finds it.
+    /// The permeability along an axis, computed by `find` once.
     pub(super) fn permeability(&self, axis: usize, find: impl FnOnce() -> f64) -> f64 {
         *self.permeabilities[axis].get_or_init(find)
     }
 
-    /// The same with conductances that are known.
+    /// The same with known conductances.
     pub(crate) fn with_conductances(mut self, conductances: Vec<f64>) -> Self {
         self.conductances = OnceCell::from(conductances);
         self
     }
 
-    /// Curvatures at which drainage enters the throats of the network, in 1/m; none where no angle is known.
+    /// Entry curvatures of the throats of the network in drainage, in 1/m; `None` without a contact angle.
     pub(crate) fn entry_curvatures(&self) -> Option<&[f64]> {
         let Configuration { network, pores, entry, .. } = &self.config;
         let conditions = entry.as_ref()?;
@@ -137,7 +137,7 @@ impl Model {
         Some(self.entry_curvatures.get_or_init(find))
     }
 
-    /// Number of throats of the network whose measured entry pressure takes the place of that of the formula under some conditions.
+    /// Number of throats of the network whose measured entry pressure replaces the formula under given conditions.
     pub(crate) fn measured_throats(&self, conditions: &Conditions) -> usize {
         let Configuration { network, pores, .. } = &self.config;
         let (throats, formula) = (network.throats.len(), Conditions { measured: Vec::new(), ..conditions.clone() });
@@ -146,7 +146,7 @@ impl Model {
         with.iter().zip(&without).filter(|(with, without)| with.is_finite() && with != without).count()
     }
 
-    /// Entry pressures in Pa of all throats of the network; none where no angle or no tension is known.
+    /// Entry pressures in Pa of all throats of the network; `None` without a contact angle or tension.
     pub(crate) fn entry_pressures(&self) -> Option<Vec<f64>> {
         self.config.tension?;
         let pressure = |&curvature: &f64| self.config.pressure(FluidPhase::NonWetting, curvature);

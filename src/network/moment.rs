@@ -1,4 +1,4 @@
-//! A displacement at one moment, kept while the displacement goes on.
+//! A displacement at one moment, stored while the displacement continues.
 
 use super::displacement::Displacement;
 
@@ -11,7 +11,7 @@ pub struct Moment {
     pub half_cycle: usize,
     /// Number of its events so far.
     pub events: usize,
-    /// Applied curvature towards the wetting phase in 1/m; none before the first event.
+    /// Applied curvature towards the wetting phase in 1/m; `None` before the first event.
     pub applied: Option<f64>,
     /// Saturation of the wetting phase.
     pub saturation: f64,

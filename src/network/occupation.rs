@@ -1,4 +1,4 @@
-//! What output sees of a displacement at one moment, whether it is quasi-static or one in time.
+//! The state of a displacement at one moment for output, quasi-static or dynamic.
 
 use std::borrow::Cow;
 
@@ -8,26 +8,26 @@ use super::films::SeenFilms;
 use super::model::Configuration;
 use crate::math::Vec2;
 
-/// Which fluid holds what, and how it came there.
+/// Phases of all elements, and their history.
 #[derive(Debug, Clone)]
 pub(crate) struct Occupation<'a> {
     /// The elements; they tile the pore space.
     pub(crate) elements: &'a [Element],
-    /// The phase that comes in.
+    /// The invading phase.
     pub(crate) invading: FluidPhase,
-    /// Share of each element that it holds.
+    /// Its saturation in each element.
     pub(crate) share: Vec<f64>,
-    /// Whether an element holds the other phase without a way to the outlet.
+    /// Whether an element holds the other phase without a path to the outlet.
     pub(crate) trapped: Vec<bool>,
-    /// When elements were invaded in this displacement or half cycle, with the curvature in the plane towards the wetting phase.
+    /// Invasions of elements in this displacement or half cycle, with the curvature in the plane towards the wetting phase.
     pub(crate) invasions: Cow<'a, [Option<Invasion>]>,
-    /// The events of this displacement or half cycle in their order: the throat that was passed.
+    /// The throat passed by each event of this displacement or half cycle, in order.
     pub(crate) passed: Vec<Option<usize>>,
     /// The menisci, each a polyline in m.
     pub(crate) menisci: Vec<Vec<Vec2>>,
-    /// The films in corners, where there are any.
+    /// The corner films, if any.
     pub(crate) films: Option<SeenFilms>,
-    /// What it is and how far it has come, for pictures.
+    /// Process and progress as text, for pictures.
     pub(crate) note: String,
 }
 

@@ -1,8 +1,8 @@
-//! `openpnm.csv`: the network as `openpnm.io.network_from_csv` loads it (OpenPNM 3): pore and throat columns side by side, labels as
-//! the words True and False, no units in headers, SI for the depth of the chip, or one of 1 m in the plane.
+//! `openpnm.csv`: the network in the format of `openpnm.io.network_from_csv` (OpenPNM 3): pore and throat columns side by side, labels
+//! True and False, no units in headers, SI units with the depth of the chip, or a depth of 1 m in the plane.
 //!
-//! Each opening of an open side is a boundary pore of volume zero with a throat to the pore behind it. Leaves out throats from a
-//! pore to itself, which connect nothing.
+//! Each opening of an open side is a boundary pore of volume zero with a throat to the pore behind it. Throats from a pore to itself are
+//! left out, as they connect nothing.
 
 use super::conductance::opening_conductances;
 use super::graph::{Opening, Throat};
@@ -12,7 +12,7 @@ use crate::case::SIDES;
 use crate::math::Vec2;
 use crate::table::{Cells, Column, Table};
 
-/// A connection of two pores: a throat, or an opening.
+/// A connection between two pores: a throat or an opening.
 enum Link<'a> {
     Throat { index: usize, throat: &'a Throat },
     Opening { index: usize, opening: &'a Opening },
@@ -47,7 +47,7 @@ impl Connection<'_> {
     fn length(&self, config: &Configuration) -> f64 {
         match &self.link {
             Link::Throat { throat, .. } => length(config, throat),
-            Link::Opening { opening, .. } => (center(config, self.ends[0]) - place(opening)).norm(),
+            Link::Opening { opening, .. } => (center(config, self.ends[0]) - middle(opening)).norm(),
         }
     }
 
@@ -59,7 +59,7 @@ impl Connection<'_> {
     }
 }
 
-fn place(opening: &Opening) -> Vec2 {
+fn middle(opening: &Opening) -> Vec2 {
     0.5 * (opening.ends[0] + opening.ends[1])
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn table(model: &Model) -> Table {
     Table { name: "openpnm", columns }
 }
 
-/// How many of floor and lid bound the flow: both, or none in the plane.
+/// Number of plates (floor, lid) that bound the flow: 2, or 0 in the plane.
 fn plates(config: &Configuration) -> f64 {
     if config.network.depth.is_some() { 2.0 } else { 0.0 }
 }
@@ -92,8 +92,8 @@ fn pore_columns(config: &Configuration) -> Vec<Column> {
     let surface = |pore: usize| depth * walls[pore] + plates * area(pore);
     let round = |pore: usize| (4.0 * area(pore) / std::f64::consts::PI).sqrt();
     let mut columns = vec![
-        all("pore.coords[0]", &|pore| center(config, pore).x, &|opening| place(opening).x),
-        all("pore.coords[1]", &|pore| center(config, pore).y, &|opening| place(opening).y),
+        all("pore.coords[0]", &|pore| center(config, pore).x, &|opening| middle(opening).x),
+        all("pore.coords[1]", &|pore| center(config, pore).y, &|opening| middle(opening).y),
         all("pore.coords[2]", &|_| 0.0, &zero),
         all("pore.diameter", &diameter, &width),
         all("pore.inscribed_diameter", &diameter, &width),
@@ -145,7 +145,7 @@ fn throat_columns(model: &Model) -> Vec<Column> {
         Link::Opening { index, .. } => depth * of_openings[index] / viscosity,
     }));
     if let Some(pressures) = model.entry_pressures() {
-        // The meniscus at an opening is that of a reservoir: it has no entry pressure.
+        // An opening joins a reservoir: it has no entry pressure.
         columns.push(column("throat.entry_pressure", &|it| match it.link {
             Link::Throat { index, .. } => pressures[index],
             Link::Opening { .. } => 0.0,

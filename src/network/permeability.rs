@@ -1,15 +1,15 @@
 //! Permeability of a network: one pressure per region, flow g Δp/μ through each throat, sum of flows zero in every region.
 //!
-//! K in m² from the dissipation: Σ g Δp² = K G² A, G the mean pressure gradient and A the area of the domain. The matrix is a graph
-//! Laplacian, factored by Cholesky. Parts of the network without a way from side to side carry no flow.
-//! All regions count, whatever persistence ratio pores are told by: a passage that has no neck conducts well.
+//! K in m² from the dissipation: Σ g Δp² = K G² A, with the mean pressure gradient G and the area A of the domain. The matrix is a graph
+//! Laplacian, factored by Cholesky. Parts of the network that do not connect both sides carry no flow.
+//! All regions count, whatever the persistence ratio of pores: a passage without a neck conducts well.
 
 use crate::math::Bounds;
 use crate::network::conductance::opening_conductances;
 use crate::network::graph::Network;
 use crate::network::laplacian::{Conductor, Edge, FlowError, Laplacian};
 
-/// What drives the flow.
+/// The drive of the flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drive {
     /// From the openings of the low side (left or bottom) to those of the high side of an axis: 0 along x, 1 along y.
@@ -18,25 +18,25 @@ pub enum Drive {
     Periodic(usize),
 }
 
-/// The part of a network in which a fluid flows.
+/// The part of a network accessible to a fluid.
 #[derive(Debug, Clone, Copy)]
 pub struct Paths<'a> {
     /// Conductance of each throat in m²; 0 where it is closed to the fluid.
     pub conductance: &'a [f64],
-    /// Whether the fluid stands in each region: openings of others are closed to it.
+    /// Whether the fluid is in each region: openings of others are closed to it.
     pub holds: &'a [bool],
 }
 
-/// A dissipation below this share of that of equal pressures in all regions is rounding: nothing flows.
+/// Rounding error of the dissipation, over that of equal pressures in all regions: below it nothing flows.
 const ROUNDING: f64 = 1e-24;
 
-/// The permeability in m² that a network gives its domain; 0 where nothing leads through it.
+/// The permeability in m² of the domain of a network; 0 without a path through it.
 pub fn permeability(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Result<f64, FlowError> {
     let (edges, conductors): (Vec<Edge>, Vec<Conductor>) =
         conductors(network, paths, domain, drive).into_iter().unzip();
     let flow = Laplacian::new(network.regions.len(), edges)?.solve(&conductors, &[])?;
     let dissipation: f64 = flow.through.iter().zip(&conductors).map(|(q, c)| q * q / c.conductance).sum();
-    // Flow dissipates the least of all pressures that fit the drive.
+    // The flow minimizes the dissipation among all pressures with this drive.
     let most: f64 = conductors.iter().map(|c| c.conductance * c.jump * c.jump).sum();
     Ok(if dissipation > ROUNDING * most { dissipation / domain.area() } else { 0.0 })
 }
@@ -50,7 +50,7 @@ fn conductors(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> 
     for (throat, &conductance) in network.throats.iter().zip(paths.conductance) {
         let [from, to] = throat.regions;
         if conductance > 0.0 {
-            // Pressure falls by the gradient times the period each time that a frame is left.
+            // The pressure drops by the gradient times the period between periodic images.
             let jump = if matches!(drive, Drive::Periodic(_)) { -throat.shift[axis] } else { 0.0 };
             found.push((Edge { ends: (from, Some(to)), is_good: false }, Conductor { conductance, jump }));
         }
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn square_arrays_have_the_permeability_of_exact_flow_within_two_percent() {
-        // Drag of Sangani and Acrivos (1982); K = 1/F. Arcs miss a sixth of what the slope of walls adds.
+        // Drag of Sangani and Acrivos (1982); K = 1/F. Arcs miss a sixth of the effect of the slope of walls.
         for (solid, drag) in [(0.6, 1763.6), (0.5, 532.548), (0.4, 217.894), (0.3, 102.881), (0.2, 51.527)] {
             let network = square_array((solid / PI).sqrt());
             let values = conductances(&network);
@@ -134,7 +134,7 @@ mod tests {
         }
     }
 
-    /// A slit along x, told as regions whose throats stand at `cuts`.
+    /// A slit along x, divided into regions by throats at `cuts`.
     fn slit(length: f64, width: f64, cuts: &[f64]) -> Network {
         let v = Vec2::new;
         let mut stops = vec![0.0];
@@ -187,7 +187,7 @@ mod tests {
             let paths = Paths { conductance: &values, holds: &holds };
             let k = permeability(&network, paths, domain, Drive::Sides(0)).unwrap();
             assert!((k * 12.0 / (width * width) - 1.0).abs() < 1e-9, "{cuts:?}: {k}");
-            // Nothing flows across, nor where the fluid is not let in.
+            // Nothing flows across, nor without an opening for the fluid.
             assert_eq!(permeability(&network, paths, domain, Drive::Sides(1)).unwrap(), 0.0);
             let mut dry = holds.clone();
             dry[0] = false;
@@ -205,7 +205,7 @@ mod tests {
             permeability(network, Paths { conductance, holds: &holds }, domain, Drive::Sides(0)).unwrap()
         };
         assert!(of(&network, &[0.1, 0.2]) > 0.0);
-        // A closed throat leaves one part on each side.
+        // A closed throat leaves one component on each side.
         assert_eq!(of(&network, &[0.1, 0.0]), 0.0);
         network.openings.clear();
         assert_eq!(of(&network, &[0.1, 0.2]), 0.0);

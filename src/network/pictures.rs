@@ -1,4 +1,4 @@
-//! The capillary pressure curve and the maps of a network, as data.
+//! Data of the capillary pressure curve and the maps of a network.
 
 use super::cycles::{Cycles, Entry, FluidPhase};
 use super::displacement::Element;
@@ -9,13 +9,13 @@ use crate::case::Side;
 use crate::diagram::{Area, Axis, Color, Diagram, Frame, RegionMap, Stroke, Through, Tone, Trace, colors};
 use crate::math::Vec2;
 
-/// Steps of the curve shorter than this share of an axis are not drawn.
+/// Least length of steps of the curve that are drawn, over that of an axis.
 const FINEST: f64 = 1.0e-3;
 
-/// Above this pressure in Pa axes count in kPa.
+/// Pressure in Pa above which axes are in kPa.
 const KILO: f64 = 2.0e3;
 
-/// How a phase is drawn: where it invades and where it came before, where it is displaced and where it is trapped.
+/// Colors of phases: invading in this half cycle or before, displaced, and trapped.
 struct Look {
     color: Color,
     trapped: (&'static str, Color),
@@ -48,7 +48,7 @@ pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
 }
 
 /// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation
-/// and the saturation changes at constant pressure. Each line begins where the one before it ends, so that cycles are joined loops.
+/// and the saturation changes at constant pressure. Each line begins at the end of the previous one, so that cycles form closed loops.
 fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram> {
     config.tension?;
     let pressure_at = |entry: &Entry| config.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
@@ -77,7 +77,7 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
         for entry in entries {
             let pressure = unit * pressure_at(entry);
             if let [end] = points[..] {
-                // What is open at the inlet fills at the first pressure after the turn.
+                // Elements open at the inlet fill at the first pressure after the reversal.
                 points.push([end[0], pressure]);
             }
             points.push([saturation, pressure]);
@@ -103,7 +103,7 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
     })
 }
 
-/// Primary drainage, imbibition, secondary drainage and so on in a cycle; where there is no other half cycle, the process alone.
+/// Primary drainage, imbibition, secondary drainage and so on in a cycle; for a single half cycle, the process alone.
 fn process_name(cycles: &Cycles, index: usize) -> String {
     const ORDERS: [&str; 2] = ["primary", "secondary"];
     let (process, number) = (cycles.half_cycles()[index].name(), index / 2);
@@ -115,14 +115,14 @@ fn process_name(cycles: &Cycles, index: usize) -> String {
     }
 }
 
-/// A staircase without its middle points and without steps that are too short to be seen; first and last point stay.
+/// A staircase without collinear points and steps too short to be visible; first and last point are kept.
 fn thinned(points: &[[f64; 2]], finest: [f64; 2]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     for (index, &point) in points.iter().enumerate() {
         let is_end = index + 1 == points.len();
-        let seen = |last: &[f64; 2]| (0..2).any(|side| (point[side] - last[side]).abs() > finest[side]);
-        if kept.last().is_none_or(seen) || is_end {
-            // The corner of the staircase, where both coordinates differ.
+        let is_visible = |last: &[f64; 2]| (0..2).any(|side| (point[side] - last[side]).abs() > finest[side]);
+        if kept.last().is_none_or(is_visible) || is_end {
+            // Add the corner of the staircase if both coordinates differ.
             if let Some(&last) = kept.last()
                 && last[0] != point[0]
                 && last[1] != point[1]
@@ -148,7 +148,7 @@ fn pair(point: Vec2) -> [f64; 2] {
     point.into()
 }
 
-/// A line or an outline as often as it is seen in the domain: at each whole number of periods at which it reaches into it.
+/// All periodic images of a line or an outline that overlap the domain.
 fn images(config: &Configuration, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
     let domain = config.bounds;
     let ends = line.iter().fold(None, |ends: Option<[Vec2; 2]>, point| {
@@ -168,7 +168,7 @@ fn images(config: &Configuration, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
     shifts[0].iter().flat_map(|&x| shifts[1].iter().map(move |&y| (x, y))).map(|(x, y)| moved(x, y)).collect()
 }
 
-/// The maps: the order of invasion, or the pores by their size where nothing is displaced.
+/// The maps: the order of invasion, or without a displacement the pores by size.
 pub(crate) fn region_maps(config: &Configuration, occupation: Option<&Occupation>) -> Vec<RegionMap> {
     vec![occupation.map_or_else(|| sizes(config), |occupation| order(config, occupation))]
 }
@@ -197,7 +197,7 @@ fn empty(config: &Configuration) -> RegionMap {
     }
 }
 
-/// What passes a side.
+/// Direction of flow through a side.
 fn through(side: Side) -> Option<Through> {
     match side {
         Side::Inlet => Some(Through::In),
@@ -222,8 +222,8 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
     let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
     let (label, bar) = invading.in_order;
     let menisci = occupation.menisci.iter().flat_map(|line| images(config, line)).collect();
-    let seen = occupation.films.iter().flat_map(|films| &films.strips);
-    let strips = seen.flat_map(|(line, width)| images(config, line).into_iter().map(|line| (line, *width)));
+    let all = occupation.films.iter().flat_map(|films| &films.strips);
+    let strips = all.flat_map(|(line, width)| images(config, line).into_iter().map(|line| (line, *width)));
     RegionMap {
         name: "invasion",
         note: occupation.note.clone(),
@@ -242,7 +242,7 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
     }
 }
 
-/// The parts of the pore space by the probability that each is invaded.
+/// The elements by their probability of invasion.
 pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64], note: String) -> RegionMap {
     let areas = elements.iter().zip(probability).flat_map(|(element, &probability)| {
         let tone = Tone::Value(probability);

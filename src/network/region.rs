@@ -1,6 +1,6 @@
-//! The part of the pore space over which saturations are taken: a rectangle, without what opens at the inlet or the outlet.
+//! The region of saturations: the pore space in a rectangle, without elements open at the inlet or the outlet.
 //!
-//! Area of a part Ω of the pore space inside of the rectangle from (a, c) to (b, d), by Green's theorem, over the boundary of Ω:
+//! Area of a part Ω of the pore space inside the rectangle from (a, c) to (b, d), by Green's theorem over the boundary of Ω:
 //!
 //! A = ∮ min(max(x, a), b) dy, where c < y < d.
 
@@ -12,19 +12,19 @@ use crate::math::{Bounds, Vec2};
 /// The areas that count in saturations.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Counted {
-    /// Of each element in m².
+    /// Area of each element in m².
     pub(crate) areas: Vec<f64>,
     /// Their sum.
     pub(crate) sum: f64,
 }
 
 impl Counted {
-    /// Those of all elements.
+    /// The areas of all elements.
     pub(crate) fn everywhere(displacement: &Displacement) -> Self {
         Self::of(displacement.elements().iter().map(|element| element.area).collect())
     }
 
-    /// Those inside of a rectangle, without what opens at the inlet or the outlet.
+    /// The areas inside a rectangle, without elements open at the inlet or the outlet.
     pub(crate) fn within(displacement: &Displacement, region: Bounds, periods: [Option<f64>; 2]) -> Self {
         let area = |element: usize| {
             let whole = displacement.elements()[element].area;
@@ -42,18 +42,18 @@ impl Counted {
         Self { areas, sum }
     }
 
-    /// Share of an element that counts.
+    /// Fraction of an element that counts.
     pub(crate) fn share(&self, displacement: &Displacement, element: usize) -> f64 {
         self.areas[element] / displacement.elements()[element].area
     }
 
-    /// Area in m² of those elements of which `holds` is true.
+    /// Area in m² of the elements for which `holds` is true.
     pub(crate) fn area_of(&self, holds: impl Fn(usize) -> bool) -> f64 {
         (0..self.areas.len()).filter(|&element| holds(element)).map(|element| self.areas[element]).sum()
     }
 }
 
-/// The share of a rectangle of the domain that is no solid.
+/// The porosity of a rectangle of the domain.
 pub(crate) fn porosity(network: &Network, rectangle: Bounds, periods: [Option<f64>; 2]) -> f64 {
     let curves = |edge: &Edge| match edge {
         Edge::Wall(pieces) => pieces.iter().map(|piece| piece.curve).collect(),
@@ -66,10 +66,10 @@ pub(crate) fn porosity(network: &Network, rectangle: Bounds, periods: [Option<f6
     network.regions.iter().map(area).sum::<f64>() / rectangle.area()
 }
 
-/// A share of a rectangle that is less than this is none.
+/// Rounding error of areas relative to the rectangle.
 const ROUNDING: f64 = 1.0e-10;
 
-/// Area in m² that a part of the pore space and its images have inside of a rectangle; `area` is that of all of it.
+/// Area in m² of a part of the pore space and its periodic images inside a rectangle; `area` is its total area.
 fn area_within(boundary: Vec<Curve>, area: f64, rectangle: Bounds, periods: [Option<f64>; 2]) -> f64 {
     let outline = closed(boundary);
     let Some(ends) = outline.iter().map(Curve::bounds).reduce(|a, b| a.united(&b)) else { return 0.0 };
@@ -77,14 +77,14 @@ fn area_within(boundary: Vec<Curve>, area: f64, rectangle: Bounds, periods: [Opt
     for shift in shifts(ends, rectangle, periods) {
         let frame = Bounds { min: rectangle.min - shift, max: rectangle.max - shift };
         let is_inside = (0..2).all(|axis| frame.min[axis] <= ends.min[axis] && frame.max[axis] >= ends.max[axis]);
-        // What lies inside as a whole has its area in closed form.
+        // A part entirely inside has its area in closed form.
         found += if is_inside { area } else { -outline.iter().map(|curve| integral(curve, frame)).sum::<f64>() };
     }
-    // What lies outside of it adds up to rounding.
+    // Parts outside add up to rounding.
     if found > ROUNDING * rectangle.area() { found.min(area) } else { 0.0 }
 }
 
-/// The whole numbers of periods by which something with these ends is moved to reach into a rectangle.
+/// The numbers of periods by which an interval with these ends is shifted to overlap a rectangle.
 fn shifts(ends: Bounds, region: Bounds, periods: [Option<f64>; 2]) -> Vec<Vec2> {
     let [along_x, along_y] = [0, 1].map(|axis| match periods[axis] {
         None => vec![0.0],
@@ -97,7 +97,7 @@ fn shifts(ends: Bounds, region: Bounds, periods: [Option<f64>; 2]) -> Vec<Vec2> 
     along_x.iter().flat_map(|&x| along_y.iter().map(move |&y| Vec2::new(x, y))).collect()
 }
 
-/// A boundary with segments across its gaps. Around a periodic domain they cancel those of the image beside it.
+/// A boundary with segments across its gaps. Around a periodic domain they cancel those of the adjacent image.
 fn closed(curves: Vec<Curve>) -> Vec<Curve> {
     let count = curves.len();
     let gap = |k: usize| Curve::Segment { a: curves[k].point(1.0), b: curves[(k + 1) % count].point(0.0) };
@@ -177,7 +177,7 @@ mod tests {
             (bounds([-2.0, -2.0], [2.0, 2.0]), pi),
             (bounds([0.0, -2.0], [2.0, 2.0]), pi / 2.0),
             (bounds([-2.0, -2.0], [0.0, 0.0]), pi / 4.0),
-            // A segment of the circle beyond x = 1/2, and a square within.
+            // A segment of the circle past x = 1/2, and a square inside.
             (bounds([0.5, -2.0], [3.0, 3.0]), pi / 3.0 - 0.75_f64.sqrt() / 2.0),
             (bounds([-0.5, -0.5], [0.5, 0.5]), 1.0),
             (bounds([2.0, -1.0], [3.0, 1.0]), 0.0),

@@ -1,7 +1,7 @@
-//! `swof.inc` and `sgof.inc`: saturation functions as reservoir simulators read them, in METRIC units.
+//! `swof.inc` and `sgof.inc`: saturation functions for reservoir simulators, in METRIC units, at states after events of the last half cycle.
 //!
-//! States are those after events of the last half cycle. With the wetting phase as water and the non-wetting one as oil, SWOF lists S_w, k_rw, k_ro and
-//! p_o - p_w by rising S_w; with the wetting phase as liquid and the non-wetting one as gas, SGOF lists S_g, k_rg, k_rl and p_g - p_l by rising S_g.
+//! With water as the wetting and oil as the non-wetting phase, SWOF lists S_w, k_rw, k_ro and p_o - p_w by rising S_w; with liquid as the
+//! wetting and gas as the non-wetting phase, SGOF lists S_g, k_rg, k_rl and p_g - p_l by rising S_g.
 
 use std::fmt::Write;
 
@@ -12,15 +12,15 @@ use crate::table::Document;
 
 /// Pa in a bar, the unit of pressure in METRIC decks.
 const BAR: f64 = 1.0e5;
-/// Most rows.
+/// Maximum number of rows.
 const ROWS: usize = 40;
-/// Saturations that differ by less are one row: as many digits are written.
+/// Resolution of saturations, as written: closer ones share a row.
 const LEAST_STEP: f64 = 1.0e-6;
 
 /// A state of the last half cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct State {
-    /// Number of its events so far; none before what is open at the inlet has been filled.
+    /// Number of its events so far; `None` before the initial filling of elements open at the inlet.
     events: Option<usize>,
     /// Saturation of the wetting phase.
     saturation: f64,
@@ -31,7 +31,7 @@ struct State {
 /// A row: saturation of the wetting phase, relative permeabilities of the wetting and the non-wetting phase, p_n - p_w in Pa.
 pub(super) type Row = [f64; 4];
 
-/// The files that the case asks for; none where nothing flows from inlet to outlet.
+/// The files requested by the case; none if nothing flows from inlet to outlet.
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
     let tables = model.config.tables;
     let Some(cycles) = model.cycles.as_ref().filter(|_| !tables.is_empty()) else { return Vec::new() };
@@ -53,7 +53,7 @@ fn rows(model: &Model, cycles: &Cycles) -> Vec<Row> {
     let row = |(state, [_, wetting, other]): (&State, [f64; 3])| [state.saturation, wetting, other, state.pressure];
     let mut rows: Vec<Row> = states.iter().zip(relative).map(row).collect();
     rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    // Each phase conducts the better the more it holds; where it holds no more, what is left is rounding.
+    // The conductance of a phase does not fall with its saturation, except by rounding.
     for k in 1..rows.len() {
         rows[k][1] = rows[k][1].max(rows[k - 1][1]);
         rows[k][2] = rows[k][2].min(rows[k - 1][2]);
@@ -61,13 +61,13 @@ fn rows(model: &Model, cycles: &Cycles) -> Vec<Row> {
     rows
 }
 
-/// The beginning of the last half cycle and the last state at each of its saturations.
+/// The initial state of the last half cycle, and the last state at each of its saturations.
 fn states(config: &Configuration, cycles: &Cycles) -> Vec<State> {
     let half_cycle = cycles.half_cycle_index();
     let entries: Vec<_> = cycles.history().iter().filter(|entry| entry.half_cycle == half_cycle).collect();
     let pressure = |applied: f64| config.pressure(cycles.half_cycle().invading, applied);
     let first = entries.first().map_or(f64::NAN, |entry| pressure(entry.applied));
-    // Manifolds have no saturation, so that in a region nothing is displaced at the beginning.
+    // Manifolds do not count in saturations, so in a region the initial filling displaces nothing.
     let events = config.region.map(|_| 0);
     let saturation = cycles.outcomes()[half_cycle].first_saturation[0];
     let mut found = vec![State { events, saturation, pressure: first }];
@@ -83,7 +83,7 @@ fn states(config: &Configuration, cycles: &Cycles) -> Vec<State> {
     found
 }
 
-/// No more than some of them, the first and the last one included, at saturations as even as there are.
+/// A limited number of them, including the first and the last one, at saturations spaced as evenly as possible.
 fn chosen(states: Vec<State>) -> Vec<State> {
     let [Some(first), Some(last)] = [states.first(), states.last()].map(|end| end.copied()) else { return states };
     let step = (last.saturation - first.saturation).abs() / (ROWS - 1) as f64;
@@ -152,7 +152,7 @@ fn ends(rows: &[Row]) -> [Row; 2] {
     [rows.first(), rows.last()].map(|row| row.copied().unwrap_or([f64::NAN; 4]))
 }
 
-/// A comment where a phase still flows at its end of the table, where simulators expect that it does not.
+/// A comment if a phase still flows at its end of the table, where simulators expect zero.
 fn unfinished(first: f64, last: f64, [of_first, of_last]: [&str; 2]) -> String {
     let comment = |value: f64, name: &str, place: &str| {
         if value > 0.0 {

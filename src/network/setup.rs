@@ -1,4 +1,4 @@
-//! From a checked case to its network and the displacement in it.
+//! Construction of the network and the displacement of a validated case.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use crate::case::network::{
 use crate::case::{Case, SIDES, Side};
 use crate::solver::Solver;
 
-/// The solver of a case with nothing displaced yet.
+/// The solver of a case in its initial state.
 pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
     let quasi_static = build_quasi_static(case, wanted)?;
     Ok(match in_time(wanted, &quasi_static)? {
@@ -31,19 +31,19 @@ pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>
     })
 }
 
-/// The solver of a displacement in time with nothing displaced yet; none where the case asks for none.
+/// The solver of a dynamic displacement in its initial state; `None` if the case has none.
 pub(crate) fn build_in_time(case: &Case, wanted: &PoreNetwork) -> Result<Option<DynamicSolver>, SetupError> {
     let quasi_static = build_quasi_static(case, wanted)?;
     let found = in_time(wanted, &quasi_static)?;
     Ok(found.map(|(dynamic, invading, end)| DynamicSolver::new(quasi_static, dynamic, invading, end)))
 }
 
-/// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
+/// The solver of a quasi-static displacement; without a displacement if the case has a dynamic one.
 pub fn build_quasi_static(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
     build_on(&Ground::of(case, wanted)?, wanted, case.depth)
 }
 
-/// The same on a ground that is known, that of a case of the same geometry, sides and persistence ratio, at the depth in m of the case.
+/// The same on a given ground, that of a case of the same geometry, sides and persistence ratio, at the depth in m of the case.
 pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>) -> Result<NetworkSolver, SetupError> {
     let network = ground.with_depth(depth);
     let initial = match wanted.displacement.as_ref().and_then(|displacement| displacement.initial.as_ref()) {
@@ -74,7 +74,7 @@ fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
     wanted.measured.iter().flat_map(|measured| &measured.throats).map(burst).collect()
 }
 
-/// The phases of a state for the first half cycle.
+/// The phases of a saved state for the first half cycle.
 fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Result<Beginning, SetupError> {
     let (walls, pores) = (ground.walls(), &ground.pores);
     let half = match (&wanted.displacement, &wanted.interface) {
@@ -95,7 +95,7 @@ fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Net
     if start.state.elements.len() != elements.len() {
         return Err(other("it was written with other network.events or another persistence ratio"));
     }
-    // Areas were written and read.
+    // Rounding of areas by writing and reading.
     const SAME: f64 = 1e-9;
     let is_same =
         |(state, element): (&ElementState, &Element)| (state.area_m2 - element.area).abs() <= SAME * element.area;
@@ -105,7 +105,7 @@ fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Net
     Ok(state::beginning(&start.state, first.invading))
 }
 
-/// The solver of a network that is known; `initial` are the phases that its displacement begins with.
+/// The solver of a given network; `initial` are the initial phases of its displacement.
 fn assemble(
     wanted: &PoreNetwork,
     ground: &Ground,
@@ -161,10 +161,10 @@ fn assemble(
     NetworkSolver::new(config, cycles)
 }
 
-/// A displacement in time with the phase that invades and its end.
+/// A dynamic displacement with the invading phase and its end.
 pub(crate) type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
 
-/// The displacement in time that a case asks for.
+/// The dynamic displacement of a case.
 pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
     let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
     let config = quasi_static.config();
@@ -176,7 +176,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
     let walls = config.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
     let conditions = Conditions {
         angle: angles(interface, walls, invading),
-        // Pores at the inlet that are not full yet are displaced like others.
+        // Pores at the inlet that are not full initially are displaced like others.
         inlet: if driven.initial_saturation.is_some() { [false; 4] } else { inlet },
         outlet,
         trapping: Trapping::None,
@@ -214,7 +214,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
     Ok(Some((dynamic, invading, end)))
 }
 
-/// What a displacement in time is made of: fluids, drive, viscosities in Pa s of the wetting and the non-wetting phase.
+/// Parameters of a dynamic displacement: fluids, drive, viscosities in Pa s of the wetting and the non-wetting phase.
 fn asked_in_time(wanted: &PoreNetwork) -> Option<(&NetworkDisplacement, &NetworkInterface, DynamicDrive, [f64; 2])> {
     let displacement = wanted.displacement.as_ref()?;
     let viscosities = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];

@@ -1,24 +1,24 @@
-//! Why a network cannot be set up, and the key of the case that is to blame.
+//! Errors in the setup of a network, with the responsible key of the case.
 
 use super::ExtractError;
 use crate::geometry::GeometryError;
 
-/// A network that cannot be set up.
+/// Why a network cannot be set up.
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
-    /// The shapes make no sense.
+    /// The shapes are invalid.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
-    /// The pores cannot be told apart.
+    /// The network cannot be extracted.
     #[error("{0}")]
     Extract(#[from] ExtractError),
-    /// Entry pressures that were measured in another geometry.
+    /// Measured entry pressures belong to another geometry.
     #[error(
         "the measured entry pressures (network.measured) are those of another geometry: its hash is {expected}, that of this one is {found}; measure \
          them anew with `meniscus network verify`, or leave the key out"
     )]
     OtherGeometry {
-        /// Hash of the geometry that they were measured in.
+        /// Hash of the geometry in which they were measured.
         expected: String,
         /// Hash of this one.
         found: String,
@@ -26,7 +26,7 @@ pub enum SetupError {
     /// The domain is solid.
     #[error("there is no pore in the domain: the solids fill all of it")]
     NoPore,
-    /// A state that does not belong to the network.
+    /// A saved state does not belong to the network.
     #[error(
         "the state in {} (network.initial) has {found} elements, and this network has {expected}: {why}; run this case without \
          network.initial, and take a state that it writes", file.display()
@@ -34,25 +34,25 @@ pub enum SetupError {
     OtherState {
         /// Its file.
         file: std::path::PathBuf,
-        /// Its elements.
+        /// Its number of elements.
         found: usize,
-        /// Those of the network.
+        /// That of the network.
         expected: usize,
-        /// What is different.
+        /// The difference.
         why: &'static str,
     },
-    /// A displacement in time begins with more of the invading phase than its pores at the inlet hold.
+    /// The initial saturation of a dynamic displacement exceeds the pores at the inlet.
     #[error(
         "at the beginning the invading phase would hold {asked:.4} of the pore space (network.dynamic.initial-saturation), and the pores that are open at \
          the inlet are {found:.4} of it; take a share from 0 to that, or leave the key out: these pores are full then"
     )]
     InletTooSmall {
-        /// Share that is asked for.
+        /// Requested saturation.
         asked: f64,
-        /// That of the pores at the inlet.
+        /// Share of the pores at the inlet.
         found: f64,
     },
-    /// A region without a pore that counts.
+    /// A region of saturations without a pore that counts.
     #[error(
         "there is no pore space in the region from {min:?} to {max:?} m (network.region) but what opens at the inlet or the outlet; choose a larger region, \
          or one with pores"
@@ -77,7 +77,7 @@ pub enum SetupError {
 }
 
 impl SetupError {
-    /// The key of the case that a user would change.
+    /// The key of the case to change.
     pub(crate) fn key(&self) -> String {
         match self {
             Self::Extract(ExtractError::NotOpen { .. }) => "network".to_owned(),

@@ -1,7 +1,7 @@
-//! The network as the simulation loop sees it. Its clock is no time: it counts the displaced pore volumes of all half cycles.
+//! The [`Solver`] of a quasi-static displacement. Its clock counts the displaced pore volumes of all half cycles in place of time.
 //!
-//! One step does one event, which takes place when the clock stands at the volume displaced before it; the clock then runs to the
-//! volume displaced after it. So a record between two events shows the state after the first of them.
+//! One step performs one event at the clock reading before it and then advances the clock to the volume displaced after it. So a record
+//! between two events shows the state after the first of them.
 
 use std::time::Instant;
 
@@ -18,44 +18,44 @@ use crate::solver::{
     Clock, Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
 };
 
-/// A network with all that is needed to observe it.
+/// A network with its displacement.
 #[derive(Debug, Clone)]
 pub struct NetworkSolver {
     pub(super) model: Model,
     clock: f64,
     steps_before: u64,
-    /// The times that extraction and displacement took, in s.
+    /// Wall times of extraction and displacement in s.
     pub(super) seconds: [f64; 2],
 }
 
-/// All that the future depends on: events are done anew, the same ones in the same order.
+/// The state that checkpoints store: on restart the same events are repeated in the same order.
 #[derive(Serialize, Deserialize)]
 struct Saved {
     clock: f64,
     steps: u64,
 }
 
-/// What the clock counts.
+/// Label of the clock.
 const DISPLACED: Clock = Clock { name: "displaced pore volumes", symbol: "V", unit: "pore volumes" };
 
 impl NetworkSolver {
-    /// A network with nothing displaced yet.
+    /// A network in its initial state.
     pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
         Self { model: Model::new(config, cycles), clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
     }
 
-    /// The same with the time that its extraction took, in s.
+    /// The same with the wall time of its extraction in s.
     pub(crate) fn timed(mut self, extraction: f64) -> Self {
         self.seconds[0] = extraction;
         self
     }
 
-    /// What stands still.
+    /// The static configuration.
     pub fn config(&self) -> &Configuration {
         &self.model.config
     }
 
-    /// The displacement; none where the network is extracted only.
+    /// The displacement; `None` if the network is only extracted.
     pub fn cycles(&self) -> Option<&Cycles> {
         self.model.cycles.as_ref()
     }
@@ -163,7 +163,7 @@ impl Solver for NetworkSolver {
 
     fn state(&self) -> Vec<u8> {
         let saved = Saved { clock: self.clock, steps: self.steps() };
-        // Two numbers can always be encoded.
+        // Encoding two numbers cannot fail.
         postcard::to_stdvec(&saved).unwrap_or_default()
     }
 
@@ -187,7 +187,7 @@ impl Solver for NetworkSolver {
     }
 
     fn steps_to(&self, _end: f64) -> Option<f64> {
-        // At most, each event of a half cycle fills one element, or closes or opens a throat.
+        // Upper bound: each event of a half cycle fills one element, or closes or opens a throat.
         let throats = if self.model.cycles.as_ref().is_some_and(Cycles::has_films) {
             self.model.config.network.throats.len()
         } else {
@@ -212,7 +212,7 @@ impl Solver for NetworkSolver {
     }
 }
 
-/// What is left at the end but for events.
+/// The results at the end, without events.
 pub(super) fn results_with(model: &Model, occupation: Option<&Occupation>) -> Results<'static> {
     let mut results = Results {
         tables: tables::all(model, occupation),

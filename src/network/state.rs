@@ -1,4 +1,4 @@
-//! `at-breakthrough.json` and `at-end.json`: states that a network or a direct simulation of the same geometry can begin with.
+//! `at-breakthrough.json` and `at-end.json`: states from which a network or a direct simulation of the same geometry can start.
 
 use super::cycles::{Cycles, HalfCycle};
 use super::displacement::{Beginning, Element, Phase, Standing};
@@ -12,11 +12,11 @@ use crate::table::Document;
 const NOTE: &str = "SI units; curvatures above 0 where an interface bulges into the wetting phase: tension times curvature is p_n - p_w; \
                     curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
-/// The same of a chip.
+/// The same for a chip.
 const NOTE_OF_CHIP: &str = "SI units; curvatures are those in the plane, above 0 where an interface bulges into the wetting phase: floor and lid add to p_n - p_w; \
                             curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
-/// The states at the first breakthrough and at the present moment.
+/// The states at first breakthrough and at the present moment.
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
     let Some(cycles) = &model.cycles else { return Vec::new() };
     let breakthrough =
@@ -26,7 +26,7 @@ pub(crate) fn documents(model: &Model) -> Vec<Document> {
 }
 
 fn document(name: &'static str, config: &Configuration, cycles: &Cycles, moment: &Moment) -> Document {
-    // Numbers, texts and lists of them can always be written.
+    // Writing numbers, text and lists cannot fail.
     let text = serde_json::to_string(&state(config, cycles.half_cycles(), moment)).unwrap_or_default();
     Document { name, text: text + "\n" }
 }
@@ -35,7 +35,7 @@ fn document(name: &'static str, config: &Configuration, cycles: &Cycles, moment:
 pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
     let half = &half_cycles[moment.half_cycle];
     let displacement = &moment.displacement;
-    // Before the first event menisci are taken as flat as their walls allow.
+    // Before the first event menisci are as flat as their walls allow.
     let largest = moment.applied.map_or(0.0, |applied| half.towards_wetting(applied));
     let resting = displacement.resting_curvature(largest);
     let interfaces = displacement.interfaces(resting, config.bounds, config.periodic);
@@ -101,12 +101,12 @@ fn meniscus(half: &HalfCycle, standing: &Standing) -> MeniscusState {
     }
 }
 
-/// The phases of a state for a half cycle in which `invading` invades.
+/// The phases of a saved state for a half cycle with invasion by `invading`.
 pub(crate) fn beginning(state: &NetworkState, invading: FluidPhase) -> Beginning {
     let is_same = state.invading == invading;
     let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let largest = state.largest_applied_curvature_per_m.map(|applied| sign * applied);
-    // Where the other phase invaded so far, what it holds keeps the last curvature.
+    // After invasion by the other phase, its elements keep the last curvature.
     let held = |element: &ElementState| match element.trapped_curvature_per_m {
         Some(curvature) => sign * curvature,
         None if is_same => f64::NAN,

@@ -1,4 +1,4 @@
-//! The state of pores from that of their elements, and `network.json`: what the tables mean, and what went into them.
+//! The state of pores from that of their elements, and `network.json`: metadata and parameters of the tables.
 
 use serde::Serialize;
 
@@ -11,9 +11,9 @@ use crate::table::Document;
 /// The state of one pore.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PoreState {
-    /// The fluid that holds more than half of it.
+    /// The phase of more than half of its area.
     pub(crate) fluid: FluidPhase,
-    /// The event of the present half cycle by which the invading phase came to hold more than half of it.
+    /// The event of the present half cycle after which the invading phase holds more than half of it.
     pub(crate) invasion: Option<Invasion>,
     /// Whether more than half of it is trapped.
     pub(crate) is_trapped: bool,
@@ -35,7 +35,7 @@ impl PoreStates {
     }
 }
 
-/// Number of pores that the invading phase came to hold in the present half cycle.
+/// Number of pores invaded in the present half cycle.
 pub(crate) fn invaded_pores(config: &Configuration, occupation: &Occupation) -> usize {
     let mut filled = vec![[0.0; 2]; config.pores.main_region.len()];
     for (index, element) in occupation.elements.iter().enumerate() {
@@ -58,7 +58,7 @@ fn state(occupation: &Occupation, elements: &[usize]) -> PoreState {
     let mut filled: Vec<(Invasion, f64)> =
         elements.iter().filter_map(|&e| occupation.invasions[e].map(|invasion| (invasion, area(e)))).collect();
     filled.sort_by_key(|(invasion, _)| invasion.sequence);
-    // What it held of the invading phase before this half cycle.
+    // Invading phase in it before this half cycle.
     let mut held = sum(&|e| occupation.is_invaded(e) && occupation.invasions[e].is_none());
     let mut invasion = None;
     for (event, area) in filled {
@@ -74,7 +74,7 @@ fn state(occupation: &Occupation, elements: &[usize]) -> PoreState {
     }
 }
 
-/// What stands in `network.json`.
+/// The content of `network.json`.
 #[derive(Serialize)]
 struct Description<'a> {
     version: &'static str,
@@ -134,7 +134,7 @@ struct HalfCycleDescription<'a> {
     saturation_after: f64,
 }
 
-/// Enough to merge anew with another ratio.
+/// Sufficient data to merge again with another ratio.
 #[derive(Serialize)]
 struct Merges {
     note: &'static str,
@@ -179,7 +179,7 @@ pub(crate) fn network_json(model: &Model) -> Document {
             throat_width_m: network.throats.iter().map(|throat| throat.width).collect(),
         },
     };
-    // Numbers, texts and lists of them can always be written; what is not finite becomes null.
+    // Writing numbers, text and lists cannot fail; non-finite numbers become null.
     let text = serde_json::to_string(&description).unwrap_or_default();
     Document { name: "network.json", text: text + "\n" }
 }

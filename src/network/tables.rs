@@ -1,4 +1,4 @@
-//! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row each for a pore, a throat, an event.
+//! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row per pore, throat or event.
 
 use super::cycles::{Cycles, Entry, FluidPhase, Invasion, Outcome};
 use super::films::CurvePoint;
@@ -54,21 +54,21 @@ pub(super) fn kept(config: &Configuration) -> impl Iterator<Item = &Throat> {
     config.pores.throats.iter().map(|&throat| &config.network.throats[throat])
 }
 
-/// The vector `from` to `to`, the shorter way round where the domain is periodic.
+/// The vector `from` to `to`, of the nearest image in a periodic domain.
 fn nearest(config: &Configuration, from: Vec2, to: Vec2) -> Vec2 {
-    let (mut way, size) = (to - from, config.bounds.size());
+    let (mut vector, size) = (to - from, config.bounds.size());
     for axis in (0..2).filter(|&axis| config.periodic[axis]) {
-        way[axis] -= size[axis] * (way[axis] / size[axis]).round();
+        vector[axis] -= size[axis] * (vector[axis] / size[axis]).round();
     }
-    way
+    vector
 }
 
-/// The way between both pores by way of the middle of their throat: vectors from the middle to both centers.
+/// The vectors from the middle of a throat to the centers of both pores.
 pub(super) fn arms(config: &Configuration, throat: &Throat) -> [Vec2; 2] {
     pores_of(config, throat).map(|pore| nearest(config, throat.middle(), center(config, pore)))
 }
 
-/// Length of a throat from pore center to pore center by way of its middle, in m.
+/// Length of a throat in m, from pore center to pore center through its middle.
 pub(super) fn length(config: &Configuration, throat: &Throat) -> f64 {
     arms(config, throat).iter().map(|arm| arm.norm()).sum()
 }
@@ -184,12 +184,12 @@ fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
     Table { name: "throats", columns }
 }
 
-/// The curvature of a vertex has no number.
+/// The curvature of a vertex is infinite, without a number in the table.
 pub(super) fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }
 
-/// For each throat the event by which it was passed.
+/// For each throat the event that passed it.
 fn sequences(config: &Configuration, occupation: &Occupation) -> Vec<Option<usize>> {
     let mut passed = vec![None; config.network.throats.len()];
     for (sequence, throat) in (1..).zip(&occupation.passed) {
@@ -200,7 +200,7 @@ fn sequences(config: &Configuration, occupation: &Occupation) -> Vec<Option<usiz
     config.pores.throats.iter().map(|&throat| passed[throat]).collect()
 }
 
-/// The number of each throat of the network among those that were not dissolved.
+/// The number of each throat of the network among those not dissolved.
 pub(super) fn numbers_of_throats(config: &Configuration) -> Vec<Option<usize>> {
     let mut number_of = vec![None; config.network.throats.len()];
     config.pores.throats.iter().enumerate().for_each(|(number, &throat)| number_of[throat] = Some(number));
@@ -239,20 +239,20 @@ pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
     table
 }
 
-/// What stands in place of an event at the beginning of a half cycle, when what is open at its inlet has been filled.
+/// Name of the row at the start of a half cycle, after the initial filling of elements open at its inlet.
 pub(super) const BEGINNING: &str = "beginning";
 
 /// A row of the events.
 struct Row<'c> {
     half_cycle: usize,
     sequence: usize,
-    /// None at the beginning.
+    /// `None` at the start.
     event: Option<&'c Entry>,
-    /// Saturation of the wetting phase and, as a part of it, of films.
+    /// Saturation of the wetting phase, and the part of it in films.
     saturation: [f64; 2],
 }
 
-/// The beginning of each half cycle, and its events.
+/// The initial state of each half cycle, and its events.
 fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
     let of_half = |(half_cycle, outcome): (usize, &Outcome)| {
         let saturation = [outcome.first_saturation[1], outcome.first_film_saturation];
@@ -267,7 +267,7 @@ fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
     cycles.outcomes().iter().enumerate().flat_map(of_half).collect()
 }
 
-/// `capillary_pressure.csv`: the curve with the films at every pressure; none without films.
+/// `capillary_pressure.csv`: the curve with the films at every pressure; `None` without films.
 pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Table> {
     let (curve, tension) = (cycles.curve(), config.tension?);
     let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].name();

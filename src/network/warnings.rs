@@ -1,4 +1,4 @@
-//! What a reader must know before trusting a network: what its formulas do not cover, and what does not lead through it.
+//! Warnings on the results of a network: cases that its formulas do not cover, and missing connections.
 
 use super::flow::{LEAST_SOLID, drive};
 use super::model::Configuration;
@@ -8,7 +8,7 @@ use crate::interface::depth::odd;
 /// The names of both permeabilities.
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
 
-/// The warnings that a network asks for.
+/// All warnings on a network.
 pub(crate) fn warnings(config: &Configuration) -> Vec<String> {
     let names: Vec<&str> =
         (0..2).filter(|&axis| drive(config, axis).is_some()).map(|axis| PERMEABILITIES[axis]).collect();
@@ -16,7 +16,7 @@ pub(crate) fn warnings(config: &Configuration) -> Vec<String> {
     disconnected(config).or_else(loose).into_iter().chain(odd_depth(config)).collect()
 }
 
-/// What the permeability along an axis, if there is one, does not tell.
+/// Limits of the permeability along an axis, if there is one.
 pub(crate) fn notes_on_permeability(config: &Configuration, axis: usize) -> Vec<String> {
     if drive(config, axis).is_none() {
         return Vec::new();
@@ -33,7 +33,7 @@ fn loose(config: &Configuration) -> Option<String> {
     })
 }
 
-/// Flow along an open side passes between a wall and no wall, so that no throat stands for it.
+/// Flow along an open side has a wall on one side only, so that no throat represents it.
 fn open_beside(config: &Configuration, axis: usize) -> Option<String> {
     let beside = [2 * (1 - axis), 2 * (1 - axis) + 1];
     let open: Vec<&str> = beside
@@ -52,13 +52,13 @@ fn open_beside(config: &Configuration, axis: usize) -> Option<String> {
     })
 }
 
-/// A depth that makes all throats slits between floor and lid, or between their walls.
+/// A depth far below or above the widths of all throats.
 fn odd_depth(config: &Configuration) -> Option<String> {
     let widths = || config.network.throats.iter().map(|throat| throat.width);
     odd(config.network.depth?, widths().reduce(f64::min)?, widths().reduce(f64::max)?)
 }
 
-/// Whether the pore space leads from the inlet to the outlet.
+/// Missing connection from the inlet to the outlet.
 fn disconnected(config: &Configuration) -> Option<String> {
     let (inlet, outlet) = (config.inlet?, config.outlet?);
     let network = &config.network;

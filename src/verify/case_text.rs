@@ -1,4 +1,4 @@
-//! The cases of a cut-out, as files that a user can open and change.
+//! The cases of a subdomain, as files that a user can open and change.
 
 use std::fmt::Write;
 
@@ -10,32 +10,32 @@ use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
 use crate::network::cycles::FluidPhase as Phase;
 use crate::network::displacement::EventKind;
 
-/// Reynolds number ρQ/μ of the flow that conductances are measured by.
+/// Reynolds number ρQ/μ of the flow with which conductances are measured.
 const REYNOLDS: f64 = 0.01;
-/// Latest end of a run with a meniscus, in times √(density · length³/tension) and density · length²/viscosity, the longer one of both.
+/// Latest end of a run with a meniscus, in units of √(density · length³/tension) or density · length²/viscosity, whichever is longer.
 const CAPILLARY_TIMES: f64 = 12.0;
-/// The same in viscous times of the throat; a swing decays in one.
+/// The same in viscous times of the throat; an oscillation decays in one.
 const VISCOUS_TIMES: f64 = 6.0;
-/// End of a run of one phase in times density · height²/viscosity; the slowest mode between plates decays in a tenth of it.
+/// End of a single-phase run in units of density · height²/viscosity; the slowest mode between plates decays in a tenth of it.
 const FLOW_TIMES: f64 = 1.0;
-/// Rise of the steps of the pressure of a whole pore up to an overlap over tension/width, per spacing over width.
+/// Height of the pressure steps up to an overlap over tension/width, per spacing over width.
 const RISE_PER_SPACING: f64 = 0.16;
-/// How many there are below the overlap, and as many above it.
+/// Number of steps below the overlap, and of those above it.
 const OVERLAP_STEPS: f64 = 5.0;
-/// Time of such a step in times √(density · length³/tension) of the box and viscous times of the throat, the longer one of both.
+/// Duration of such a step in units of √(density · length³/tension) of the box or viscous times of the throat, whichever is longer.
 const OVERLAP_TIMES: f64 = 3.0;
-/// Rise of the steps up to a touch over tension/width: fewer and longer ones, since the defending phase between meniscus and wall drains slowly.
+/// Height of the steps up to a touch over tension/width: fewer and longer steps, as the defending phase between meniscus and wall drains slowly.
 const TOUCH_RISE: f64 = 0.02;
 /// As of an overlap.
 const TOUCH_STEPS: f64 = 2.0;
 /// As of an overlap.
 const TOUCH_TIMES: f64 = 9.0;
-/// The same of a run with a meniscus in times of the friction of floor and lid.
+/// Latest end of a run with a meniscus in relaxation times by the friction of floor and lid.
 const FRICTION_TIMES: f64 = 6.0;
-/// Largest deviation of the entry pressure from the formula that the case expects, as a share.
+/// Largest relative deviation of the entry pressure from the formula that the case expects.
 const EXPECTED: f64 = 0.02;
 
-/// A throat for its titles.
+/// A throat for the titles of its cases.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Named<'a> {
     /// Its number in `throats.csv`.
@@ -49,7 +49,7 @@ pub(crate) struct Named<'a> {
 fn head(named: &Named, subdomain: &Subdomain, what: &str, title: &str) -> String {
     let (middle, width) = (subdomain.frame.middle, subdomain.width);
     format!(
-        "# {what}\n# Throat {} of {}, {width:.4e} m wide at ({:.4e}, {:.4e}) m; x is the way of the invading phase, {:.2} degrees \
+        "# {what}\n# Throat {} of {}, {width:.4e} m wide at ({:.4e}, {:.4e}) m; x is the flow direction of the invading phase, {:.2} degrees \
          counter-clockwise from that of the network.\nformat = 1\ntitle = \"{title}\"\n\n",
         named.number,
         named.network,
@@ -73,7 +73,7 @@ fn shapes(geometry: &GeometrySpec, fluids: &Fluids) -> String {
         let _ = writeln!(text, "depth = {:e} # m", chip.depth.distance());
     }
     for shape in &geometry.shapes {
-        // Writing to a string cannot fail; a cut-out has no other shapes.
+        // Writing to a string cannot fail; a subdomain has no other shapes.
         let _ = match shape {
             ShapeSpec::Disc(disc) => writeln!(
                 text,
@@ -102,11 +102,11 @@ fn phase(name: &str, fluid: Fluid) -> String {
     format!("[sph.phases.{name}]\ndensity = {:e} # kg/m3\nviscosity = {:e} # Pa s\n\n", fluid.density, fluid.viscosity)
 }
 
-/// The case of the entry pressure: a closed box that the invading phase fills up to the meniscus of largest curvature.
+/// The case of the entry pressure: a closed box, filled by the invading phase up to the meniscus of largest curvature.
 pub(crate) fn entry(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> String {
     let (width, tension) = (subdomain.width, fluids.tension);
     let [wetting, other] = fluids.of(width);
-    // The thicker phase takes most of a swing away.
+    // The more viscous phase damps oscillations most.
     let density = wetting.density.max(other.density);
     let viscosity = wetting.viscosity.max(other.viscosity);
     let size = crate::math::Vec2::from(subdomain.geometry.max) - crate::math::Vec2::from(subdomain.geometry.min);
@@ -136,14 +136,14 @@ pub(crate) fn entry(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> St
     text
 }
 
-/// The case of the conductance: one phase passes the box, which is joined along the throat, at a given rate.
+/// The case of the conductance: one phase flows at a given rate through the box, which is periodic along the throat.
 pub(crate) fn flow(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> String {
     let width = subdomain.width;
     let fluid = fluids.of(width)[0];
     let height = subdomain.geometry.max[1] - subdomain.geometry.min[1];
     let end = FLOW_TIMES * fluid.density * height * height / fluid.viscosity;
     let title = format!("Throat {}: conductance, {} spacings across", named.number, named.across);
-    let what = "One phase passes the throat at a given rate; the box is joined along the way.";
+    let what = "One phase passes the throat at a given rate; the box is periodic along the throat.";
     let mut text = head(named, subdomain, what, &title);
     text += &shapes(&subdomain.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
@@ -163,22 +163,22 @@ pub(crate) fn flow_rate(fluid: Fluid) -> f64 {
     REYNOLDS * fluid.viscosity / fluid.density
 }
 
-/// The pressures of a whole pore at its inlet, which rise in steps.
+/// Inlet pressures of a whole pore, rising in steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Steps {
-    /// Curvature in 1/m of the menisci at the first one.
+    /// Curvature in 1/m of the menisci at the first step.
     pub(crate) first: f64,
-    /// Rise in 1/m.
+    /// Height of a step in 1/m.
     pub(crate) rise: f64,
-    /// How many there are.
+    /// Number of steps.
     pub(crate) count: f64,
-    /// Time of each in capillary or viscous times.
+    /// Duration of each step in capillary or viscous times.
     pub(crate) times: f64,
 }
 
 impl Steps {
-    /// Steps at a spacing (m) from below an event to above it, which lies in the middle between two of them; none where the branch before the event is shorter
-    /// than one.
+    /// Steps at a spacing (m) from below to above an event, which lies midway between two of them; `None` if the branch before the event is
+    /// shorter than one step.
     pub(crate) fn of(subdomain: &WholePore, spacing: f64) -> Option<Self> {
         let scale = 1.0 / subdomain.width;
         let (rise, steps, times) = match subdomain.kind {
@@ -191,8 +191,8 @@ impl Steps {
     }
 }
 
-/// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci leave. None where no menisci stand
-/// below the event.
+/// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci jump. `None` if there are no
+/// menisci below the event.
 pub(crate) fn pore(subdomain: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
     let (width, tension, frame) = (subdomain.width, fluids.tension, &subdomain.frame);
     let spacing = subdomain.narrowest / f64::from(named.across);
@@ -212,7 +212,7 @@ pub(crate) fn pore(subdomain: &WholePore, fluids: &Fluids, named: &Named) -> Opt
     };
     let mut text = format!(
         "# {what}: the pressure of the invading phase rises in steps from below the event to above it.\n# Event {} of {}, at ({:.4e}, {:.4e}) m; x is \
-         the way of the invading phase, {:.2} degrees counter-clockwise from that of the network.\n# The formula: {:.4} Pa.\nformat = 1\n\
+         the flow direction of the invading phase, {:.2} degrees counter-clockwise from that of the network.\n# The formula: {:.4} Pa.\nformat = 1\n\
          title = \"Event {}: {kind}, {} spacings across\"\n\n",
         named.number,
         named.network,

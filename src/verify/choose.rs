@@ -1,4 +1,4 @@
-//! Which throats are verified.
+//! The selection of throats to verify.
 
 use std::str::FromStr;
 
@@ -10,21 +10,21 @@ use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Meniscus, Passage};
 use crate::math::Vec2;
 
-/// Pressures that differ by less than this share are close to each other.
+/// Relative difference below which pressures are close to each other.
 const CLOSE: f64 = 0.05;
-/// Points along a curve at which its distance is looked up.
+/// Points along a curve at which its distance is evaluated.
 const POINTS: usize = 33;
 
-/// A choice of throats.
+/// A criterion for throats.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Choice {
-    /// Those that burst within 5 % of the pressure at breakthrough, the one that sets it first.
+    /// Those that burst within 5 % of the pressure at breakthrough, the one that determines it first.
     Critical,
-    /// Those whose formula is least sure.
+    /// Those whose formula is least certain.
     Unsure,
-    /// So many at random.
+    /// This number at random.
     Random(usize),
-    /// Those of these numbers.
+    /// Those with these numbers.
     Numbers(Vec<usize>),
 }
 
@@ -60,11 +60,11 @@ pub struct Chosen {
     pub throat: usize,
     /// The region that the meniscus enters, 0 or 1.
     pub to: usize,
-    /// Why it was chosen.
+    /// Why it was selected.
     pub reason: String,
 }
 
-/// A choice that the network cannot meet.
+/// A criterion that the network cannot meet.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ChoiceError {
     /// No displacement that breaks through.
@@ -72,12 +72,12 @@ pub enum ChoiceError {
         "`critical` are the throats near the pressure at breakthrough, and there is none: the network needs an inlet and an outlet that is reached; take unsure, random:N or numbers"
     )]
     NoBreakthrough,
-    /// A number that is none.
+    /// A number that no throat has.
     #[error("there is no throat {number}; the numbers of throats.csv run from 0 to {last}")]
     NoThroat {
         /// The number.
         number: usize,
-        /// The last one.
+        /// The largest valid number.
         last: usize,
     },
     /// No throats at all.
@@ -85,7 +85,7 @@ pub enum ChoiceError {
     NoThroats,
 }
 
-/// The throats of all choices, each once, in the order of the choices.
+/// The throats of all criteria, each once, in the order of the criteria.
 pub fn choose(subject: &Subject, choices: &[Choice], seed: u64) -> Result<Vec<Chosen>, ChoiceError> {
     if subject.kept().is_empty() {
         return Err(ChoiceError::NoThroats);
@@ -121,7 +121,7 @@ fn chosen(subject: &Subject, number: usize, reason: &str) -> Chosen {
 
 fn critical(subject: &Subject) -> Result<Vec<Chosen>, ChoiceError> {
     let (history, applied) = subject.to_breakthrough.as_ref().ok_or(ChoiceError::NoBreakthrough)?;
-    // The event that first needed the pressure at breakthrough.
+    // The first event at the pressure of breakthrough.
     let bottleneck = history.iter().find(|entry| entry.applied.abs() >= applied.abs() && entry.throat.is_some());
     let bottleneck = bottleneck.and_then(|entry| entry.throat);
     let mut near: Vec<(f64, usize)> = Vec::new();
@@ -135,7 +135,7 @@ fn critical(subject: &Subject) -> Result<Vec<Chosen>, ChoiceError> {
         }
     }
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let told = |(away, number): (f64, usize)| {
+    let with_reason = |(away, number): (f64, usize)| {
         let reason = if away < 0.0 {
             "critical: sets the pressure at breakthrough".to_owned()
         } else {
@@ -143,7 +143,7 @@ fn critical(subject: &Subject) -> Result<Vec<Chosen>, ChoiceError> {
         };
         chosen(subject, number, &reason)
     };
-    Ok(near.into_iter().map(told).collect())
+    Ok(near.into_iter().map(with_reason).collect())
 }
 
 fn unsure(subject: &Subject) -> Vec<Chosen> {
@@ -174,16 +174,16 @@ fn unsure(subject: &Subject) -> Vec<Chosen> {
     found
 }
 
-/// Whether a wall turns sharply within one width of a contact.
+/// Whether a wall has a sharp edge within one width of a contact.
 fn has_vertex(passage: &Passage, meniscus: &Meniscus, width: f64) -> bool {
-    /// Turns in rad below this are those of smooth walls.
+    /// Turning angle in rad below which a wall is smooth.
     const SMOOTH: f64 = 1e-6;
     let contacts = [meniscus.left.point, meniscus.right.point];
     [passage.left(), passage.right()].into_iter().zip(contacts).any(|(wall, contact)| {
         let ends: Vec<[(Vec2, Vec2); 2]> =
             wall.parts.iter().map(|part| [0.0, 1.0].map(|u| (part.curve.point(u), part.curve.tangent(u)))).collect();
         ends.windows(2).any(|pair| {
-            // On the right wall the order of the parts is against their curves.
+            // The pieces of the right wall are in the reverse order of its curves.
             let joints = [(pair[0][1], pair[1][0]), (pair[1][1], pair[0][0])];
             let joint = joints.into_iter().min_by(|a, b| {
                 let gap = |joint: &((Vec2, Vec2), (Vec2, Vec2))| (joint.0.0 - joint.1.0).norm();
@@ -197,7 +197,7 @@ fn has_vertex(passage: &Passage, meniscus: &Meniscus, width: f64) -> bool {
     })
 }
 
-/// Smallest distance in m of an arc from other walls.
+/// Smallest distance in m from an arc to other walls.
 fn distance(arc: &Curve, walls: &[Curve]) -> f64 {
     let points = (0..POINTS).map(|k| arc.point(k as f64 / (POINTS - 1) as f64));
     let to_walls =
@@ -211,7 +211,7 @@ fn random(subject: &Subject, count: usize, seed: u64) -> Vec<Chosen> {
     numbers.into_iter().map(|number| chosen(subject, number, "random")).collect()
 }
 
-/// So many of some numbers at random, each at most once.
+/// `count` of the given numbers at random, each at most once.
 pub(super) fn drawn(mut left: Vec<usize>, count: usize, seed: u64) -> Vec<usize> {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
@@ -223,7 +223,7 @@ pub(super) fn drawn(mut left: Vec<usize>, count: usize, seed: u64) -> Vec<usize>
     found
 }
 
-/// How the events of a meniscus before its burst are told: what touches first, and at which curvature in 1/m.
+/// The curvature in 1/m at which a meniscus touches another wall before its burst, if it does.
 pub(crate) fn touches_first(passage: &Passage, ahead: &[Curve]) -> Option<f64> {
     let burst = passage.burst()?.curvature;
     passage.touch(ahead, burst).filter(|k| *k < burst)

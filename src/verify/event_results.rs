@@ -1,8 +1,7 @@
-//! What the runs of whole pores say: between which pressures the menisci leave.
+//! Event pressures from runs of whole pores: the pressures between which the menisci jump.
 //!
-//! In the step in which the menisci leave, the invading phase fills at least half of the area that it fills by the formula. The event lies between
-//! the largest capillary pressure at which the menisci stood at the end of a step before, as measured in the phases, and the pressure of the step
-//! after that.
+//! In the step of the jump the invading phase fills at least half of the area that it fills by the formula. The event lies between the
+//! largest capillary pressure of menisci at rest at the end of an earlier step, as measured in the phases, and the pressure of the next step.
 
 use super::events::PlannedEvent;
 use super::fluids::Fluids;
@@ -13,34 +12,34 @@ use crate::network::cycles::FluidPhase;
 use crate::study::folder::StudyFolder;
 use crate::study::results::RunResult;
 
-/// Share of the area of an event that is filled in the step in which the menisci leave.
+/// Fraction of the area of an event that is filled in the step of the jump.
 const FILLED: f64 = 0.5;
-/// Difference of both spacings in tension/width above which neither is trusted.
+/// Difference between both spacings in tension/width above which neither is trusted.
 const COARSE: f64 = 0.05;
 
-/// An event with both of its answers.
+/// An event with the results by formula and by direct simulation.
 #[derive(Debug)]
 pub(crate) struct EventRow<'a> {
     /// The event.
     pub(crate) planned: &'a PlannedEvent,
-    /// Pressure of the event by the formula in Pa, invading less defending phase.
+    /// Event pressure by the formula in Pa, invading less defending phase.
     pub(crate) formula: f64,
     /// The same by direct simulation.
     pub(crate) direct: Option<Direct>,
-    /// Tension over the width of the throat in Pa.
+    /// Tension over throat width in Pa.
     pub(crate) scale: f64,
-    /// How it went.
+    /// Outcome.
     pub(crate) status: Status,
     /// Particles of the finest run.
     pub(crate) particles: Option<f64>,
     /// Wall time of all runs in s.
     pub(crate) wall_time: f64,
-    /// Names of the complete runs, for their pictures.
+    /// Names of complete runs, for their pictures.
     pub(crate) runs: Vec<String>,
 }
 
 impl EventRow<'_> {
-    /// Difference of the direct value from the formula in Pa.
+    /// Direct value less the formula in Pa.
     pub(crate) fn difference(&self) -> Option<f64> {
         Some(self.direct?.value - self.formula)
     }
@@ -51,7 +50,7 @@ impl EventRow<'_> {
     }
 }
 
-/// A record of a run with a pressure that rises in steps.
+/// A record of a run with pressure steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Record {
     /// Pressure at the inlet less that at the outlet in Pa.
@@ -62,18 +61,18 @@ struct Record {
     area: f64,
 }
 
-/// Where the menisci leave.
+/// The pressure at which the menisci jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Left {
-    /// Between two pressures in Pa.
+    /// Between these pressures in Pa.
     Between(f64, f64),
-    /// At the first pressure in Pa.
+    /// In the first step, at this pressure in Pa.
     AtFirst(f64),
-    /// Not up to a pressure in Pa.
+    /// Not up to this pressure in Pa.
     Not(f64),
 }
 
-/// The row of an event; `spacings` in their order.
+/// The row of an event; `spacings` in order.
 pub(crate) fn event_row<'a>(
     planned: &'a PlannedEvent,
     fluids: &Fluids,
@@ -146,7 +145,7 @@ fn records(folder: &StudyFolder, run: &str, invading: FluidPhase) -> Option<Vec<
     Some(records.map(|((applied, capillary), area)| Record { applied, capillary: sign * capillary, area }).collect())
 }
 
-/// Where the menisci leave: in the first step in which the invading phase gains `gain` (m²).
+/// The jump of the menisci: the first step in which the invading phase gains `gain` (m²).
 fn left(records: &[Record], gain: f64) -> Left {
     // The last record of each step.
     let is_end = |k: &usize| records.get(k + 1).is_none_or(|next| next.applied > records[*k].applied);
@@ -181,7 +180,7 @@ mod tests {
             record(10.0, 9.9, 1.1),
             record(12.0, 11.8, 1.2),
             record(14.0, 13.0, 1.3),
-            // What is filled slowly begins in the step before.
+            // A slow filling begins in the step before.
             record(14.0, 5.0, 1.5),
             record(16.0, 15.9, 3.0),
         ];

@@ -1,4 +1,4 @@
-//! Which touches and overlaps of the first displacement are verified.
+//! The selection of touches and overlaps of the first displacement to verify.
 
 use std::str::FromStr;
 
@@ -8,14 +8,14 @@ use super::subject::Subject;
 use super::whole_pore::WholePore;
 use crate::network::displacement::{Event, EventKind};
 
-/// A choice of events.
+/// A criterion for events.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum EventChoice {
-    /// The one that sets the pressure at breakthrough.
+    /// The one that determines the pressure at breakthrough.
     Critical,
-    /// So many of a kind at random.
+    /// This number of a kind at random.
     Random(EventKind, usize),
-    /// Those of these numbers.
+    /// Those with these numbers.
     Numbers(Vec<usize>),
 }
 
@@ -41,7 +41,7 @@ impl FromStr for EventChoice {
     }
 }
 
-/// A choice that the displacement cannot meet.
+/// A criterion that the displacement cannot meet.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum EventError {
     /// Nothing is displaced.
@@ -52,34 +52,34 @@ pub enum EventError {
         "`critical` is the event that sets the pressure at breakthrough, and there is none; take touch:N, overlap:N or numbers"
     )]
     NoBreakthrough,
-    /// A number that is none.
+    /// A number that no event has.
     #[error("there is no event {number}; those of the first half cycle in events.csv run from 1 to {last}")]
     NoEvent {
         /// The number.
         number: usize,
-        /// The last one.
+        /// The largest valid number.
         last: usize,
     },
 }
 
-/// An event that is verified, with its cut-out.
+/// An event to verify, with its subdomain.
 #[derive(Debug)]
 pub struct PlannedEvent {
     /// Its number in `events.csv`, from 1 on.
     pub number: usize,
-    /// What happens.
+    /// Kind of the event.
     pub kind: EventKind,
-    /// The throat that was passed, its number in `throats.csv`.
+    /// Number in `throats.csv` of the throat that was passed.
     pub throat: Option<usize>,
     /// Curvature of the meniscus in 1/m by the formula.
     pub curvature: f64,
-    /// Why it was chosen.
+    /// Why it was selected.
     pub reason: String,
-    /// The cut-out.
+    /// The subdomain.
     pub subdomain: Result<WholePore, Impossible>,
 }
 
-/// The events of all choices, each once, in the order of the choices.
+/// The events of all criteria, each once, in the order of the criteria.
 pub fn choose_events(subject: &Subject, choices: &[EventChoice], seed: u64) -> Result<Vec<PlannedEvent>, EventError> {
     let last = subject.events.len();
     if last == 0 && !choices.is_empty() {
@@ -127,7 +127,7 @@ impl PlannedEvent {
     }
 }
 
-/// The event that first needed the pressure at breakthrough.
+/// The first event at the pressure of breakthrough.
 fn critical(subject: &Subject) -> Result<usize, EventError> {
     let applied = subject.to_breakthrough.as_ref().map(|(history, _)| history.len());
     let reached = applied.and_then(|count| subject.events.get(..count)).and_then(|events| events.last());

@@ -1,4 +1,4 @@
-//! The fluids of the cut-outs, and floor and lid of the chip that they are in: what both make of curvatures, and their lines in a case.
+//! The fluids of the subdomains, and floor and lid of their chip: conversion of curvatures into pressures, and their lines in a case.
 
 use std::fmt::Write;
 
@@ -6,32 +6,32 @@ use crate::case::Fluid;
 use crate::interface::depth::Depth;
 use crate::network::cycles::FluidPhase as Phase;
 
-/// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
+/// Density in kg/m³ if the network gives none: at rest no pressure depends on it.
 pub(crate) const DENSITY: f64 = 1000.0;
-/// Viscosity over √(density · tension · width) where the network gives none: menisci come to rest without a long swing.
+/// Viscosity over √(density · tension · width) if the network gives none: menisci come to rest without long oscillations.
 pub(crate) const OHNESORGE: f64 = 0.1;
-/// Angles in degrees that differ by less are the same.
+/// Tolerance in degrees of equal angles.
 const SAME_ANGLE: f64 = 1e-9;
 
-/// Floor and lid of the cut-outs.
+/// Floor and lid of the subdomains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chip {
     /// Contact angles of floor and lid through the wetting phase in rad.
     pub plates: [f64; 2],
-    /// What they add to the curvature of menisci.
+    /// Their effect on the curvature of menisci.
     pub depth: Depth,
 }
 
-/// The fluids of the cut-outs, and the chip that they are in.
+/// The fluids of the subdomains, and their chip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fluids {
-    /// The wetting and the non-wetting phase, where those of the network are wanted and known.
+    /// The wetting and the non-wetting phase, if those of the network are requested and known.
     pub given: [Option<Fluid>; 2],
     /// Interfacial tension in N/m.
     pub tension: f64,
-    /// The phase that invades.
+    /// The invading phase.
     pub invading: Phase,
-    /// Floor and lid; none in the plane.
+    /// Floor and lid; `None` in the plane.
     pub chip: Option<Chip>,
 }
 
@@ -43,7 +43,7 @@ impl Fluids {
         self.given.map(|given| given.or(other).unwrap_or(default))
     }
 
-    /// Pressure in Pa of the invading less that of the defending phase at a curvature in the plane (1/m) through the same.
+    /// Capillary pressure in Pa, invading less defending phase, at a curvature in the plane in 1/m, of the same sign convention.
     pub(crate) fn pressure(&self, curvature: f64) -> f64 {
         let turned = |curvature| self.invading.towards_wetting(curvature);
         self.tension * self.chip.map_or(curvature, |chip| turned(chip.depth.curvature(turned(curvature))))
@@ -55,28 +55,28 @@ impl Fluids {
         self.chip.map_or(curvature, |chip| turned(chip.depth.plane(turned(curvature))))
     }
 
-    /// First pressure and rise in Pa of a pressure that rises in steps up to a `curvature` of menisci and beyond, from steps in curvatures (1/m).
+    /// First pressure and step height in Pa for steps through a `curvature` of menisci, from steps in curvature (1/m).
     pub(crate) fn steps(&self, curvature: f64, first: f64, rise: f64) -> (f64, f64) {
         if self.chip.is_none() {
             return (self.tension * first, self.tension * rise);
         }
-        // The map from curvatures to pressures grows; over a step it is straight.
+        // The pressure rises with the curvature, linearly within a step.
         let of_rise = self.pressure(curvature + 0.5 * rise) - self.pressure(curvature - 0.5 * rise);
         (self.pressure(curvature) + (first - curvature) / rise * of_rise, of_rise)
     }
 
-    /// Distance of floor and lid in m; 1 in the plane, where rates are those per meter of depth.
+    /// Distance between floor and lid in m; 1 in the plane, where rates are per meter of depth.
     pub(crate) fn thickness(&self) -> f64 {
         self.chip.map_or(1.0, |chip| chip.depth.distance())
     }
 
-    /// Time in s in which the friction of floor and lid lets a meniscus come to rest over a length (m) in a throat of a width (m); 0 in the plane.
+    /// Relaxation time in s of a meniscus by the friction of floor and lid, over a length (m) in a throat of a width (m); 0 in the plane.
     pub(crate) fn friction_time(&self, length: f64, width: f64) -> f64 {
         let viscosity = self.of(width).iter().map(|fluid| fluid.viscosity).fold(0.0, f64::max);
         self.chip.map_or(0.0, |_| 12.0 * viscosity * length * width * width / (self.thickness().powi(2) * self.tension))
     }
 
-    /// The tables of the wetting model and of floor and lid where their angles are others; `angle` through the defending phase in rad.
+    /// The tables of the wetting model, and of floor and lid if their angles differ; `angle` through the defending phase in rad.
     pub(crate) fn wetting(&self, angle: f64) -> String {
         let walls = self.wetting_angle(angle);
         let mut text =
@@ -91,7 +91,7 @@ impl Fluids {
         text
     }
 
-    /// Contact angle through the wetting phase in degrees for one through the defending phase in rad.
+    /// Contact angle through the wetting phase in degrees from that through the defending phase in rad.
     fn wetting_angle(&self, angle: f64) -> f64 {
         match self.invading {
             Phase::NonWetting => angle.to_degrees(),

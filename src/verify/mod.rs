@@ -1,9 +1,9 @@
-//! Throats of a network by direct simulation: chosen throats, and pores where a meniscus touches a third wall or two menisci meet, are cut out,
-//! run as an ordinary study of `[sph]` cases, and compared with the formula of the network.
+//! Verification of a network by direct simulation of subdomains: selected throats, and pores where a meniscus touches a third wall or two
+//! menisci meet, run as an ordinary study of `[sph]` cases and are compared with the formula of the network.
 //!
-//! [`choose`] says which throats and [`events`] which touches and overlaps, [`subdomain`] and [`whole_pore`] make a box of each, [`case_text`] its
-//! cases, [`plan`] writes them with their study, which [`crate::study`] runs; [`results`] and [`event_results`] read what came out, and [`report`]
-//! writes the tables, the page, and what a network takes up.
+//! [`choose`] selects throats and [`events`] touches and overlaps; [`subdomain`] and [`whole_pore`] construct the box of each, [`case_text`]
+//! its cases; [`plan`] writes them with their study, which [`crate::study`] runs; [`results`] and [`event_results`] evaluate the runs, and
+//! [`report`] writes the tables, the page, and the file of measured values that a network can read.
 
 pub mod case_text;
 pub mod choose;

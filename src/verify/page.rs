@@ -1,4 +1,4 @@
-//! The page of the verified throats: one HTML file that opens from the disk without a network, beside the pictures of the runs.
+//! The report page of the verified throats: one self-contained HTML file beside the pictures of the runs.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use super::results::Row;
 use crate::io::html::{self, escaped};
 use crate::study::table::Table;
 
-/// The page of throats and events, each with their table, as HTML.
+/// The page of throats and events with their tables, as HTML.
 pub(crate) fn page(title: &str, (table, rows): (&Table, &[Row]), events: Option<(&Table, &[EventRow])>) -> String {
     let mut html = format!(
         "<h1>{}</h1>\n<p>Formula of the network and direct simulation of the same throats. The same with all digits: \
@@ -41,11 +41,11 @@ fn pictures(head: &str, reason: &str, status: &str, runs: &[String]) -> String {
     for run in runs {
         let run = escaped(run);
         let caption = run.trim_start_matches("cut-out=").trim_end_matches(".toml");
-        let place = format!("{RUNS}/runs/{run}/picture.png");
+        let picture = format!("{RUNS}/runs/{run}/picture.png");
         // Writing to a string cannot fail.
         let _ = writeln!(
             html,
-            "<figure><a href=\"{place}\"><img loading=\"lazy\" src=\"{place}\" alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>"
+            "<figure><a href=\"{picture}\"><img loading=\"lazy\" src=\"{picture}\" alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>"
         );
     }
     html + "</div>\n"

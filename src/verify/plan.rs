@@ -1,4 +1,4 @@
-//! What will be run: a cut-out for each throat, its cases, and the study of them, written into a folder.
+//! The plan: a subdomain for each throat, its cases, and their study, written into a folder.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -25,24 +25,24 @@ pub(crate) const STUDY: &str = "verify.toml";
 pub(crate) const RUNS: &str = "study";
 /// The folder of the cases.
 const CASES: &str = "cases";
-/// Tells which cases a user changed.
+/// Digests of the cases, by which changes of a user are detected.
 const DIGESTS: &str = "digests.json";
 
-/// A throat with its cut-out.
+/// A throat with its subdomain.
 #[derive(Debug)]
 pub struct Planned {
     /// The throat.
     pub chosen: Chosen,
-    /// Its cut-out.
+    /// Its subdomain.
     pub subdomain: Result<Subdomain, Impossible>,
     /// Curvature in 1/m at which the meniscus touches another wall before its burst.
     pub touches: Option<f64>,
-    /// Conductance in m² of the box by the formula of the network: flow per depth times viscosity over the pressure drop from end to end.
+    /// Conductance in m² of the box by the formula of the network: flow per depth times viscosity over the total pressure drop.
     pub conductance: Option<f64>,
 }
 
 impl Planned {
-    /// The cut-out of a throat.
+    /// The subdomain of a throat.
     pub fn new(subject: &Subject, chosen: Chosen) -> Self {
         let Some((passage, ahead)) = subject.passage(chosen.throat, chosen.to) else {
             return Self { chosen, subdomain: Err(Impossible::NoMeniscus), touches: None, conductance: None };
@@ -58,7 +58,7 @@ impl Planned {
     }
 }
 
-/// The conductance of a cut-out by the network of its own bodies, of a depth in m.
+/// The conductance in m² of a subdomain by the network of its own bodies, of a depth in m.
 fn conductance(subdomain: &Subdomain, depth: Option<f64>) -> Option<f64> {
     let geometry = subdomain.solids(true).ok()?;
     let network = Network { depth, ..extract(&geometry, [false; 4]).ok()? };
@@ -68,7 +68,7 @@ fn conductance(subdomain: &Subdomain, depth: Option<f64>) -> Option<f64> {
     Some(permeability * size.y / size.x).filter(|found| *found > 0.0)
 }
 
-/// What a case of a cut-out gives.
+/// The quantity that a case of a subdomain yields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// The entry pressure.
@@ -79,7 +79,7 @@ pub(crate) enum Kind {
     Event,
 }
 
-/// The name of a case of a throat or an event without its ending.
+/// The name of a case of a throat or an event without extension.
 pub(crate) fn case_name(number: usize, kind: Kind, across: u32) -> String {
     match kind {
         Kind::Entry => format!("throat-{number}-entry-{across}"),
@@ -88,31 +88,31 @@ pub(crate) fn case_name(number: usize, kind: Kind, across: u32) -> String {
     }
 }
 
-/// What was written.
+/// The files written.
 #[derive(Debug)]
 pub struct Written {
-    /// The study file; none where no throat has a cut-out.
+    /// The study file; `None` if no throat has a subdomain.
     pub study: Option<PathBuf>,
-    /// Cases that were changed by hand, and left so.
+    /// Cases changed by hand, which were kept.
     pub kept: Vec<PathBuf>,
-    /// Throats, by their place in the plan, whose case is refused, and why.
+    /// Throats, by index in the plan, whose case is invalid, and why.
     pub refused: Vec<(usize, String)>,
-    /// The same of events.
+    /// The same for events.
     pub refused_events: Vec<(usize, String)>,
 }
 
-/// A folder that cannot be written into.
+/// Why a plan was not written.
 #[derive(Debug, thiserror::Error)]
 pub enum PlanError {
-    /// A file.
+    /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A case that was changed by hand and is of another network.
+    /// A case changed by hand belongs to another network.
     #[error("{} was changed by hand, and is of another case or other options now; choose another folder with --out DIR, or remove the file", .0.display())]
     Changed(PathBuf),
 }
 
-/// What is written: throats and events of one network.
+/// The plan of one network: throats and events.
 #[derive(Debug, Clone, Copy)]
 pub struct Plan<'a> {
     /// The throats.
@@ -121,14 +121,14 @@ pub struct Plan<'a> {
     pub events: &'a [PlannedEvent],
     /// The fluids of all cases.
     pub fluids: &'a Fluids,
-    /// Spacings across.
+    /// Spacings across a throat.
     pub spacings: &'a [u32],
     /// The case of the network.
     pub network: &'a str,
 }
 
 impl Plan<'_> {
-    /// The cases of a throat, each with its name.
+    /// Name and text of each case of a throat.
     fn of_throat(&self, one: &Planned) -> Vec<(String, String)> {
         let Ok(subdomain) = &one.subdomain else { return Vec::new() };
         let kinds =
@@ -145,7 +145,7 @@ impl Plan<'_> {
         cases.map(text).collect()
     }
 
-    /// The cases of an event, each with its name; fewer than spacings where menisci stand nowhere below the event.
+    /// Name and text of each case of an event; fewer than spacings if there are no menisci below the event.
     fn of_event(&self, one: &PlannedEvent) -> Vec<(String, String)> {
         let Ok(subdomain) = &one.subdomain else { return Vec::new() };
         let text = |&across: &u32| {
@@ -164,14 +164,14 @@ pub fn write(folder: &Path, plan: &Plan) -> Result<Written, PlanError> {
     let digests = std::fs::read(&digests_path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
     let mut writer = CaseWriter { cases, digests: digests.unwrap_or_default(), names: Vec::new(), kept: Vec::new() };
     let (mut refused, mut refused_events) = (Vec::new(), Vec::new());
-    for (place, one) in plan.throats.iter().enumerate() {
-        refused.extend(writer.write(plan.of_throat(one))?.map(|why| (place, why)));
+    for (index, one) in plan.throats.iter().enumerate() {
+        refused.extend(writer.write(plan.of_throat(one))?.map(|why| (index, why)));
     }
-    for (place, one) in plan.events.iter().enumerate() {
-        refused_events.extend(writer.write(plan.of_event(one))?.map(|why| (place, why)));
+    for (index, one) in plan.events.iter().enumerate() {
+        refused_events.extend(writer.write(plan.of_event(one))?.map(|why| (index, why)));
     }
     let CaseWriter { digests, names, kept, .. } = writer;
-    // Names and digests can always be written.
+    // Writing names and digests cannot fail.
     atomic::write(&digests_path, &serde_json::to_vec_pretty(&digests).unwrap_or_default())?;
     let study = folder.join(STUDY);
     let is_empty = names.is_empty();
@@ -181,18 +181,18 @@ pub fn write(folder: &Path, plan: &Plan) -> Result<Written, PlanError> {
     Ok(Written { study: (!is_empty).then_some(study), kept, refused, refused_events })
 }
 
-/// Writes cases and remembers them.
+/// Writes cases and records their digests.
 struct CaseWriter {
     cases: PathBuf,
     digests: BTreeMap<String, String>,
-    /// Those of the study.
+    /// Names of the cases of the study.
     names: Vec<String>,
-    /// Those that were changed by hand.
+    /// Cases changed by hand.
     kept: Vec<PathBuf>,
 }
 
 impl CaseWriter {
-    /// Writes the cases of one cut-out; tells why the first of them is refused, and leaves all of them out of the study then.
+    /// Writes the cases of one subdomain. If one is invalid, returns the message of the first and leaves all out of the study.
     fn write(&mut self, texts: Vec<(String, String)>) -> Result<Option<String>, PlanError> {
         let (mut refused, mut names) = (None, Vec::new());
         for (name, text) in texts {
@@ -225,7 +225,7 @@ fn digest(bytes: &[u8]) -> String {
     format!("{:016x}", fnv1a(bytes))
 }
 
-/// Writes a case, unless a user has changed it since it was written.
+/// Writes a case unless a user has changed it.
 fn write_case(path: &Path, text: &str, before: Option<&String>) -> Result<Case, PlanError> {
     let there = std::fs::read(path).ok().map(|bytes| digest(&bytes));
     let (new, changed) = (digest(text.as_bytes()), there.is_some() && there.as_ref() != before);
@@ -255,7 +255,7 @@ fn study_text(names: &[String], network: &str) -> String {
     text + "]\n"
 }
 
-/// The measures that the cases have.
+/// The measures of the cases.
 fn measures(names: &[String]) -> impl Iterator<Item = &'static str> {
     let has = |what: &str| names.iter().any(|name| name.contains(what));
     let (has_entry, has_flow, has_event) = (has("-entry-"), has("-flow-"), has("event-"));

@@ -1,4 +1,4 @@
-//! The table of the verified throats, and what a network can take up from it.
+//! The tables of the verified throats, and the measured values that a network can read.
 
 use std::path::{Path, PathBuf};
 
@@ -14,22 +14,22 @@ use crate::io::{FileError, atomic};
 use crate::network::graph::Throat;
 use crate::study::table::Table;
 
-/// What was written.
+/// The output.
 #[derive(Debug)]
 pub(crate) struct Written {
-    /// The table for people.
+    /// The table of throats for the terminal.
     pub table: Table,
-    /// That of the events; none where none was chosen.
+    /// The table of events; `None` if none was selected.
     pub events: Option<Table>,
     /// The page.
     pub page: PathBuf,
-    /// How many throats take the measured pressure.
+    /// Number of throats that use the measured pressure.
     pub replaced: usize,
-    /// The file that a network takes up.
+    /// The file that a network can read.
     pub measured: PathBuf,
 }
 
-/// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`, and of events `verify_events.csv`.
+/// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`, and for events `verify_events.csv`.
 pub(crate) fn write(
     folder: &Path,
     subject: &Subject,
@@ -44,7 +44,7 @@ pub(crate) fn write(
     atomic::write(&path("entry_pressures.csv"), &pressures(rows).csv()?)?;
     let measured = measured(subject, rows, fluids);
     let replaced = measured.throats.len();
-    // Numbers and texts can always be written.
+    // Writing numbers and text cannot fail.
     let text = serde_json::to_vec_pretty(&measured).unwrap_or_default();
     atomic::write(&path("measured.json"), &text)?;
     let of_events = (!events.is_empty()).then(|| short_events(events));
@@ -85,7 +85,7 @@ fn used(row: &Row) -> &'static str {
     if row.is_replaced() { "measured" } else { "formula" }
 }
 
-/// The entry pressures of all verified throats, the measured one where it is used.
+/// The entry pressures of all verified throats, measured if they replace the formula.
 fn pressures(rows: &[Row]) -> Table {
     let value = |row: &Row| row.pressure.filter(|_| row.is_replaced()).map_or(row.pressure_formula, |one| one.value);
     Table::of(
@@ -102,7 +102,7 @@ fn joined(spacings: &[u32]) -> String {
     spacings.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
-/// All digits.
+/// `verify.csv`, in full precision.
 fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) -> Table {
     let across = joined(spacings);
     let throat = |row: &Row, value: fn(&Throat) -> f64| exact(Some(value(subject.throat(row.planned.chosen.throat))));
@@ -139,7 +139,7 @@ fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) 
     )
 }
 
-/// All digits of the events.
+/// `verify_events.csv`, in full precision.
 fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
     let across = joined(spacings);
     let subdomain =
@@ -188,7 +188,7 @@ fn with_error(direct: Option<Direct>, scale: &dyn Fn(f64) -> String) -> String {
     }
 }
 
-/// The table of the events for people.
+/// The table of events for the terminal.
 fn short_events(rows: &[EventRow]) -> Table {
     let subdomain = |row: &EventRow, value: fn(&WholePore) -> f64, digits: usize| {
         number(row.planned.subdomain.as_ref().ok().map(value), digits)
@@ -212,7 +212,7 @@ fn short_events(rows: &[EventRow]) -> Table {
     )
 }
 
-/// The table for people.
+/// The table of throats for the terminal.
 fn short(subject: &Subject, rows: &[Row]) -> Table {
     let width = |row: &Row| subject.throat(row.planned.chosen.throat).width;
     let angle = |row: &Row| row.planned.subdomain.as_ref().ok().map(|subdomain| subdomain.angle.to_degrees());
@@ -243,7 +243,7 @@ fn short(subject: &Subject, rows: &[Row]) -> Table {
     )
 }
 
-/// One line for each throat that is not as it should be.
+/// One line for each throat with a problem.
 pub(crate) fn notes(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<String> {
     let touch = |row: &Row| {
         let curvature = row.planned.touches?;
@@ -257,7 +257,7 @@ pub(crate) fn notes(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<Stri
     rows.iter().filter_map(touch).chain(of_chip(rows, fluids, spacings)).collect()
 }
 
-/// What floor and lid leave open in what was verified.
+/// The limits of the verification with floor and lid.
 fn of_chip(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<String> {
     let (Some(chip), Some(across)) = (fluids.chip, spacings.iter().max()) else { return Vec::new() };
     let layer = chip.depth.distance() / 12.0_f64.sqrt();

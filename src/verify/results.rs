@@ -1,31 +1,31 @@
-//! What the runs of the cut-outs say, beside the formula.
+//! Results of the runs of subdomains, compared with the formula.
 
 use super::fluids::Fluids;
 use super::plan::{Kind, Planned, case_name};
 use crate::network::cycles::FluidPhase;
 use crate::study::results::{RunResult, Standing};
 
-/// Relative difference of the entry pressures of both spacings above which neither is trusted.
+/// Relative difference between the entry pressures of both spacings above which neither is trusted.
 const COARSE_PRESSURE: f64 = 0.05;
-/// The same of conductances, which go with the third power of the width.
+/// The same for conductances, which scale with the third power of the width.
 const COARSE_FLOW: f64 = 0.15;
-/// Relative drift of a phase's area above which a run is not trusted.
+/// Relative drift of the area of a phase above which a run is not trusted.
 const LEAKED: f64 = 0.01;
 
-/// How the verification of a throat went.
+/// Outcome of the verification of a throat.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Status {
-    /// All is as it should be.
+    /// Verified.
     Ok,
-    /// The meniscus still moves.
+    /// The meniscus is still moving.
     NotAtRest,
-    /// Both spacings differ, or a phase has no room.
+    /// Both spacings differ, or a phase is not resolved.
     UnderResolved(String),
     /// A run failed.
     Failed(String),
     /// A run has not been done.
     Open,
-    /// No cut-out.
+    /// No subdomain.
     Impossible(String),
 }
 
@@ -47,11 +47,11 @@ impl std::fmt::Display for Status {
 pub(crate) struct Direct {
     /// Value at the finest spacing.
     pub(crate) value: f64,
-    /// Difference from the next spacing, and the bar of the run; none with one spacing only.
+    /// Difference from the next spacing plus the error bar of the run; `None` with a single spacing.
     pub(crate) error: Option<f64>,
 }
 
-/// A throat with both of its answers.
+/// A throat with the results by formula and by direct simulation.
 #[derive(Debug)]
 pub(crate) struct Row<'a> {
     /// The throat.
@@ -60,17 +60,17 @@ pub(crate) struct Row<'a> {
     pub(crate) pressure_formula: f64,
     /// The same by direct simulation.
     pub(crate) pressure: Option<Direct>,
-    /// Conductance of the cut-out by direct simulation in m².
+    /// Conductance of the subdomain by direct simulation in m².
     pub(crate) conductance: Option<Direct>,
-    /// How it went.
+    /// Outcome of the entry pressure.
     pub(crate) status: Status,
-    /// How the flow went.
+    /// Outcome of the conductance.
     pub(crate) flow_status: Status,
     /// Particles of the finest run.
     pub(crate) particles: Option<f64>,
     /// Wall time of all runs in s.
     pub(crate) wall_time: f64,
-    /// Names of the complete runs, for their pictures.
+    /// Names of complete runs, for their pictures.
     pub(crate) runs: Vec<String>,
 }
 
@@ -85,7 +85,7 @@ impl Row<'_> {
         Some(self.conductance?.value / self.planned.conductance? - 1.0)
     }
 
-    /// Whether the direct value takes the place of the formula: it differs by more than its own error.
+    /// Whether the direct value replaces the formula: it differs by more than its own error.
     pub(crate) fn is_replaced(&self) -> bool {
         let Some(Direct { value, error: Some(error) }) = self.pressure else { return false };
         self.status == Status::Ok && (value - self.pressure_formula).abs() > error
@@ -117,7 +117,7 @@ impl Run<'_> {
     }
 }
 
-/// The runs of a throat or an event from coarse to fine.
+/// The runs of a throat or an event, from coarse to fine.
 pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: &'a [RunResult]) -> Vec<Run<'a>> {
     let mut across: Vec<u32> = spacings.to_vec();
     across.sort_unstable();
@@ -128,13 +128,13 @@ pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: 
     found.map(|result| Run { result }).collect()
 }
 
-/// Why runs have no value yet; none where all are complete.
+/// Why runs have no value yet; `None` if all are complete.
 pub(super) fn unfinished(runs: &[Run]) -> Option<Status> {
     let open = || (runs.is_empty() || !runs.iter().all(Run::is_complete)).then_some(Status::Open);
     runs.iter().find_map(Run::failed).map(Status::Failed).or_else(open)
 }
 
-/// The row of a throat; `spacings` in their order.
+/// The row of a throat; `spacings` in order.
 pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], results: &[RunResult]) -> Row<'a> {
     let curvature = planned.subdomain.as_ref().map_or(f64::NAN, |subdomain| subdomain.meniscus.curvature);
     let runs = |kind: Kind| runs_of(planned.chosen.number, kind, spacings, results);
@@ -178,8 +178,7 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
     row
 }
 
-/// The finest value with its error, from runs in the order of their spacings, coarse to fine; `coarse` is the largest relative difference of two
-/// of them.
+/// The finest value with its error, from runs in order from coarse to fine; `coarse` is the largest relative difference allowed between two.
 fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<Direct>, Status) {
     if let Some(status) = unfinished(runs) {
         return (None, status);
@@ -201,7 +200,7 @@ fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>)
     }
 }
 
-/// Whether the finest run has come to rest, with its areas kept.
+/// Whether the finest run has come to rest, with its areas conserved.
 fn at_rest(entries: &[Run]) -> Status {
     let Some(finest) = entries.last() else { return Status::Open };
     match finest.number("area-drift") {

@@ -1,8 +1,8 @@
-//! The cut-out of a throat: a box around both of its walls, and the invading phase up to the meniscus of largest curvature.
+//! The subdomain of a throat: a box around both of its walls, and the invading phase up to the meniscus of largest curvature.
 //!
-//! The box lies along the throat. Its lateral sides cut through the bodies on both sides, where these are widest or the passage has become
-//! `OPENING` widths wide on either side, and beyond all that the meniscus meets. Where a wall ends sooner, it goes on straight. Which state a
-//! meniscus rests in follows from the two walls that it meets: other bodies are left out, and counted where they reach into the box.
+//! The box is aligned with the throat. Its lateral sides cut the bodies on both sides where these are widest or have receded by `OPENING`
+//! widths from the throat, and beyond all contacts of the meniscus. A wall that ends sooner is continued straight. The equilibrium of the
+//! meniscus depends only on the two walls that it meets: other bodies are left out, and counted if they reach into the box.
 
 use super::wall_path::{Followed, Frame, UpperWall, follow, mirrored};
 use crate::geometry::Geometry;
@@ -11,54 +11,54 @@ use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, HalfPlane, ShapeS
 use crate::interface::menisci::{Hand, Meniscus, Passage, Wall};
 use crate::math::{Vec2, perpendicular};
 
-/// How far a wall draws back from the throat before the box cuts it, in widths: there the passage is four widths wide, and its resistance
-/// per length a sixty-fourth of that in the throat.
+/// Recession of a wall from the throat at which the box cuts it, in widths: the passage is then four widths wide, and its resistance per
+/// length 1/64 of that in the throat.
 const OPENING: f64 = 1.5;
-/// Room beside contacts, behind walls that have been left, and beyond the sides of the box, in widths.
+/// Clearance beside contacts, behind truncated walls, and beyond the sides of the box, in widths.
 const ROOM: f64 = 0.5;
-/// Room between the bodies and the ends of the box, in widths.
+/// Clearance between the bodies and the ends of the box, in widths.
 const ROOM_AT_ENDS: f64 = 1.5;
-/// Room ahead of the meniscus and behind it, in widths.
+/// Clearance ahead of the meniscus and behind it, in widths.
 const ROOM_ALONG: f64 = 2.0;
-/// How far beyond the meniscus walls are followed that do not draw back, in widths.
+/// Distance past the meniscus up to which walls that do not recede are followed, in widths.
 const REACH: f64 = 4.0;
-/// Lengths below this share of the width are rounding.
+/// Rounding error of lengths, in widths.
 const ROUNDING: f64 = 1e-9;
-/// Points of the meniscus that are compared with the walls.
+/// Points of the meniscus at which it is compared with the walls.
 const POINTS: usize = 41;
 
-/// Why there is no cut-out.
+/// Why there is no subdomain.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Impossible {
-    /// No menisci.
+    /// No meniscus passes.
     #[error("no meniscus passes the throat")]
     NoMeniscus,
-    /// Two angles.
+    /// Different contact angles.
     #[error("its walls have different contact angles")]
     Angles,
-    /// A contact that the walls of the cut-out do not have.
+    /// A contact outside the walls of the subdomain.
     #[error("a contact of the meniscus of largest curvature is not on the walls of the throat")]
     Contact,
-    /// An arc through a wall.
+    /// A meniscus through a wall.
     #[error("the meniscus of largest curvature would pass through a wall")]
     Crossed,
-    /// Shapes that make no sense.
-    #[error("its walls would cross each other where they go on straight")]
+    /// Walls that cross.
+    #[error("its walls would cross each other where they are continued straight")]
     Shapes,
-    /// A case that is refused.
+    /// An invalid case.
     #[error("its case is refused: {0}")]
     Case(String),
-    /// Of a whole pore: walls of another form.
+    /// A whole pore whose walls are not discs.
     #[error("its walls are not three discs")]
     NoDisc,
-    /// Menisci that have met and wait.
+    /// Menisci that merged earlier.
     #[error("its menisci met at a lower pressure and waited as one")]
     Waited,
     /// No branch before the event.
-    #[error("its menisci meet or touch as soon as they stand in their throats")]
+    #[error("its menisci meet or touch as soon as they form in their throats")]
     AtOnce,
-    /// A third body beside another one.
-    #[error("its third body stands beside one of the others, seen along the way")]
+    /// A third body beside another one across the axis.
+    #[error("its third body does not lie between the other two")]
     Beside,
     /// A narrow gap.
     #[error("a gap between its bodies is narrower than half of the throat")]
@@ -66,20 +66,20 @@ pub enum Impossible {
     /// Not an event of this kind.
     #[error("it is a burst, which is verified in its throat")]
     Burst,
-    /// Films of another angle.
+    /// Corner films of another angle.
     #[error(
         "its walls have another contact angle than those of which the network takes the films in the corners of floor and lid"
     )]
     Films,
     /// Another throat.
-    #[error("the cut-out has a throat of {0} m in place of this one")]
+    #[error("the subdomain has a throat of {0} m instead of this one")]
     Throat(String),
 }
 
-/// A throat on its own, in a frame whose x axis is the direction of advance.
+/// An isolated throat, in a frame whose x axis is the direction of advance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Subdomain {
-    /// Where it stands in the network.
+    /// Its frame in the network.
     pub frame: Frame,
     /// Width of the throat in m.
     pub width: f64,
@@ -89,14 +89,14 @@ pub struct Subdomain {
     pub meniscus: Meniscus,
     /// The box and the bodies.
     pub geometry: GeometrySpec,
-    /// What the invading phase fills, up to the meniscus; it reaches out of the box.
+    /// Shape of the invading phase up to the meniscus; it extends past the box.
     pub behind: CurvedPolygon,
-    /// Other bodies that reach into the box and are left out.
+    /// Number of other bodies that reach into the box and are left out.
     pub left_out: usize,
 }
 
 impl Subdomain {
-    /// The cut-out of a passage; `obstacles` are the other walls ahead.
+    /// The subdomain of a passage; `obstacles` are the other walls ahead.
     pub(crate) fn new(passage: &Passage, obstacles: &[Curve]) -> Result<Self, Impossible> {
         let meniscus = passage.burst().ok_or(Impossible::NoMeniscus)?;
         let angle = one_angle(passage)?;
@@ -115,13 +115,13 @@ impl Subdomain {
         Ok(subdomain)
     }
 
-    /// The cut-out as its solver sees it: closed, or joined along the throat.
+    /// The domain of the simulation: closed, or periodic along the throat.
     pub fn solids(&self, is_joined: bool) -> Result<Geometry, Impossible> {
         let geometry = Geometry::new(&self.geometry).map_err(|_| Impossible::Shapes)?;
         Ok(geometry.with_sides([is_joined, false], [!is_joined, !is_joined, true, true]))
     }
 
-    /// Whether throat and meniscus are those of the network.
+    /// Checks that throat and meniscus are those of the network.
     fn check(&self, arc: &Curve) -> Result<(), Impossible> {
         let geometry = self.solids(false)?;
         let within = |k: usize| arc.point(k as f64 / (POINTS - 1) as f64);
@@ -144,26 +144,26 @@ fn one_angle(passage: &Passage) -> Result<f64, Impossible> {
     if angles.all(|angle| (angle - first).abs() <= ROUNDING) { Ok(first) } else { Err(Impossible::Angles) }
 }
 
-/// Where the chord ends on a wall.
+/// The end of the chord on a wall.
 fn chord_end(wall: &Wall, hand: Hand) -> Option<Vec2> {
     let begin = if hand == Hand::Left { 0.0 } else { 1.0 };
     let ahead = wall.parts.get(wall.behind).map(|part| part.curve.point(begin));
     ahead.or_else(|| wall.parts.last().map(|part| part.curve.point(1.0 - begin)))
 }
 
-/// One wall as the box cuts it, seen as the upper one.
+/// One wall cut by the box, in the orientation of the upper one.
 struct Body {
     wall: UpperWall,
     /// Behind the chord and ahead of it.
     sides: [Followed; 2],
     /// Height of the side of the box in m.
     level: f64,
-    /// Whether it is straight along the way, all of it.
+    /// Whether all of it is straight and parallel to the axis.
     is_flat: bool,
     hand: Hand,
 }
 
-/// The box with what goes into it.
+/// The box with its contents.
 struct Plan {
     bodies: [Body; 2],
     /// Ends of the box behind and ahead, in m, both above 0.
@@ -182,7 +182,7 @@ impl Plan {
             let ([behind, ahead], highest) = (wall.widest(), wall.highest());
             let opening = (0.5 + OPENING) * width;
             let mut level = opening.min(behind.max(ahead)).max(0.5 * width);
-            // The box must cut the body, however far around it the meniscus meets it.
+            // The box must cut the body, however far around it the contact lies.
             let top = highest[0].min(highest[1]);
             let room = if top > met { (0.5 * (top - met)).min(ROOM * width) } else { ROOM * width };
             if met > level - room && met > (0.5 + ROUNDING) * width {
@@ -210,13 +210,13 @@ impl Plan {
         ];
         let ends = [0, 1].map(|side| {
             let reached = bodies.iter().map(|body| body.sides[side].farthest()).fold(0.0, f64::max);
-            // More than a width: the way past a body to the end of the box is no narrower throat.
+            // More than a width: the gap between a body and the end of the box must not be a narrower throat.
             (reached + ROOM_AT_ENDS * width).max(needed[side] + ROOM_ALONG * width)
         });
         Ok(Self { bodies, ends, width })
     }
 
-    /// The curves of a body from beyond the box behind to beyond it ahead, in the frame of the cut-out, along the advance.
+    /// The curves of a body from outside the box behind to outside it ahead, in the frame of the subdomain, along the advance.
     fn path(&self, body: &Body) -> Vec<Curve> {
         let side = |k: usize| {
             let mut curves = body.sides[k].curves.clone();
@@ -233,7 +233,7 @@ impl Plan {
         }
     }
 
-    /// The points that lead from the end of a side of a wall out of the box.
+    /// The points from the end of one side of a wall to outside the box.
     fn tail(&self, body: &Body, side: usize) -> Vec<Vec2> {
         let Followed { end, is_risen, .. } = body.sides[side];
         let lid = body.level + ROOM * self.width;
@@ -276,11 +276,11 @@ impl Plan {
         ShapeSpec::CurvedPolygon(polygon(&path, self.width))
     }
 
-    /// The disc that a body is, where the box shows more than half of it.
+    /// The body as a disc, if more than half of it lies in the box.
     fn disc(&self, body: &Body) -> Option<Disc> {
         let same = |curve: &Curve| match (body.sides[1].curves.first(), curve) {
             (Some(&Curve::Arc { center, radius, .. }), &Curve::Arc { center: other, radius: r, sweep, .. }) => {
-                // That behind the throat is mirrored.
+                // The side behind the throat is mirrored.
                 let other = Vec2::new(other.x.abs(), other.y);
                 let near = ROUNDING * self.width;
                 (Vec2::new(center.x.abs(), center.y) - other).norm() <= near
@@ -296,7 +296,7 @@ impl Plan {
             .then(|| Disc { center: [center.x, sign * center.y], radius })
     }
 
-    /// What lies behind the meniscus: a polygon whose other edges lie on the walls and beyond the sides of the box.
+    /// The region behind the meniscus: a polygon whose other edges lie on the walls and outside the sides of the box.
     fn behind(&self, arc: &Curve) -> CurvedPolygon {
         let [upper, lower] = self.bodies.each_ref().map(|body| self.path(body));
         let [left, right] = [arc.point(0.0), arc.point(1.0)];
@@ -314,7 +314,7 @@ impl Plan {
         polygon(&ring, self.width)
     }
 
-    /// How many of the other walls reach into the box.
+    /// Number of other walls that reach into the box.
     fn count(&self, obstacles: &[Curve], frame: &Frame) -> usize {
         let [upper, lower] = &self.bodies;
         let reaches = |curve: &&Curve| {
@@ -335,7 +335,7 @@ impl Plan {
     }
 }
 
-/// A path up to a point on it.
+/// A path truncated at a point on it.
 fn until(path: &[Curve], point: Vec2) -> Vec<Curve> {
     let distance = |curve: &Curve| (curve.project(point).point - point).norm();
     let nearest = (0..path.len()).min_by(|&a, &b| distance(&path[a]).total_cmp(&distance(&path[b])));
@@ -345,10 +345,10 @@ fn until(path: &[Curve], point: Vec2) -> Vec<Curve> {
     found
 }
 
-/// Longest arc of one edge in rad: bulges stay below 1.
+/// Longest arc of one edge in rad, so that bulges stay below 1.
 const LONGEST_ARC: f64 = 2.5;
 
-/// A closed path as a polygon; curves of no length are left out, and coordinates within rounding of an axis lie on it.
+/// A closed path as a polygon; curves of zero length are left out, and coordinates within rounding of an axis are set on it.
 pub(super) fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
     let tidy = |x: f64| if x.abs() < ROUNDING * ROUNDING * width { 0.0 } else { x };
     let mut outer = Vec::new();

@@ -1,4 +1,4 @@
-//! What is verified: a network with its menisci, and how its first displacement went up to breakthrough.
+//! The object of verification: a network with its menisci, and its first displacement up to breakthrough.
 
 use std::f64::consts::PI;
 
@@ -18,33 +18,33 @@ pub enum SubjectError {
     /// Another model.
     #[error("throats are those of a network; the case needs [network]")]
     NoNetwork,
-    /// No angle.
+    /// No contact angle.
     #[error(
         "the network has no interface, so that no throat has an entry pressure; add [network.interface] and [network.wetting.young]"
     )]
     NoInterface,
-    /// The network cannot be made.
+    /// The network cannot be extracted.
     #[error(transparent)]
     Setup(#[from] SetupError),
 }
 
-/// A network whose throats are verified.
+/// A network whose throats are to be verified.
 #[derive(Debug)]
 pub struct Subject {
     /// The network with its tables.
     pub solver: NetworkSolver,
     /// Interfacial tension in N/m.
     pub tension: f64,
-    /// The wetting and the non-wetting phase, where the case gives them.
+    /// The wetting and the non-wetting phase, if the case gives them.
     pub fluids: [Option<Fluid>; 2],
-    /// Floor and lid; none in the plane.
+    /// Floor and lid; `None` in the plane.
     pub chip: Option<Chip>,
     /// The phase that invades first.
     pub invading: FluidPhase,
-    /// What it invades under.
+    /// Conditions of the displacement.
     pub conditions: Conditions,
-    /// Events of the first half cycle up to breakthrough, and the applied curvature in 1/m at that, towards the defending phase; none where
-    /// nothing is displaced or the outlet is not reached.
+    /// Events of the first half cycle up to breakthrough, and the applied curvature in 1/m then, positive towards the defending phase; `None`
+    /// without a displacement or breakthrough.
     pub to_breakthrough: Option<(Vec<Entry>, f64)>,
     /// Throats through which menisci overlapped in the first half cycle.
     pub overlapped: Vec<usize>,
@@ -54,7 +54,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// The network of a case, displaced once. Curvatures are those in the plane: floor and lid change no order.
+    /// The network of a case, after one displacement. Curvatures are those in the plane: floor and lid do not change the order of events.
     pub fn new(case: &Case) -> Result<Self, SubjectError> {
         let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
@@ -103,13 +103,13 @@ impl Subject {
         self.fresh.passage_through(throat, to)
     }
 
-    /// The region into which a throat is entered at the larger pressure, and the curvature in 1/m there: that of `throats.csv`.
+    /// The region into which the entry pressure of a throat is larger, and the curvature in 1/m there, as in `throats.csv`.
     pub fn entry(&self, throat: usize) -> Option<(usize, f64)> {
         let burst = |to| Some((to, self.passage(throat, to)?.0.burst()?.curvature));
         [1, 0].into_iter().filter_map(burst).reduce(|best, next| if next.1 > best.1 { next } else { best })
     }
 
-    /// Whether walls of a contact angle through the defending phase (rad) have the corner films that the network computes with: those of all walls.
+    /// Whether walls of a contact angle through the defending phase (rad) have the corner films of the network, which are the same on all walls.
     pub(crate) fn has_its_films(&self, angle: f64) -> bool {
         let angle = if self.invading == FluidPhase::NonWetting { angle } else { PI - angle };
         self.chip.is_none_or(|Chip { plates, depth }| Depth::new(depth.distance(), angle, plates).has_films_of(&depth))
@@ -125,13 +125,13 @@ impl Subject {
         event.elements.iter().map(|&element| self.fresh.elements()[element].area).sum()
     }
 
-    /// Tells the geometry, as in `network.json`.
+    /// Hash of the geometry, as in `network.json`.
     pub(crate) fn geometry_hash(&self) -> &str {
         &self.solver.config().geometry_hash
     }
 }
 
-/// The events of the first half cycle; how many there are up to breakthrough, and the applied curvature in 1/m then.
+/// The events of the first half cycle, their number up to breakthrough, and the applied curvature in 1/m then.
 fn first_half_cycle(cycles: &Cycles) -> (Vec<Entry>, Option<(usize, f64)>) {
     let mut cycles = cycles.clone();
     let sign = cycles.half_cycle().towards_wetting(1.0);

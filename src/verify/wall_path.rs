@@ -1,8 +1,8 @@
-//! One wall of a throat in the frame of its cut-out, from behind the throat to ahead of it, cut where the cut-out needs no more of it.
+//! One wall of a throat in the frame of its subdomain, from behind the throat to ahead of it, truncated to the subdomain.
 //!
-//! The frame has its origin in the middle of the chord; the meniscus advances along x, and the wall lies above: of the other wall this is
-//! the mirror image. Beyond the chord on either side a wall is followed until it rises above a level or ends; where it ends sooner, or is
-//! nearly parallel to the way, it goes on straight and steps up beside the end of the cut-out, whose two ends are then alike.
+//! The frame has its origin in the middle of the chord; the meniscus advances along x, and the wall lies above (the other wall is
+//! mirrored). On either side of the chord a wall is followed until it rises above a level; if it ends sooner or is nearly parallel to x, it
+//! is continued straight and steps up beside the end of the subdomain, so that both ends are alike.
 
 use nalgebra::Rotation2;
 
@@ -10,12 +10,12 @@ use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Hand, Wall};
 use crate::math::Vec2;
 
-/// Places along a curve at which its height is looked up before the crossing of a level is bisected.
+/// Sample points along a curve that bracket the crossing of a level before bisection.
 const SAMPLES: usize = 64;
 /// A double has 53 bits.
 const HALVINGS: usize = 60;
 
-/// Where a cut-out stands in the network.
+/// The frame of a subdomain in the network.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// Middle of the chord in m.
@@ -36,7 +36,7 @@ impl Frame {
     }
 }
 
-/// A curve with x or y of the other sign.
+/// A curve with the sign of x or y reversed.
 pub(crate) fn mirrored(curve: &Curve, axis: usize) -> Curve {
     let flip = |mut v: Vec2| {
         v[axis] = -v[axis];
@@ -51,8 +51,8 @@ pub(crate) fn mirrored(curve: &Curve, axis: usize) -> Curve {
     }
 }
 
-/// A wall of a throat, seen as the upper one: its curves on both sides of the chord, each side in the order away from it and with x above 0
-/// on the way.
+/// A wall of a throat in the orientation of the upper one: its curves on both sides of the chord, each side in order away from it and with
+/// x increasing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct UpperWall {
     /// Behind the chord, mirrored, and ahead of it.
@@ -64,7 +64,7 @@ impl UpperWall {
     pub(crate) fn of(wall: &Wall, hand: Hand, frame: &Frame) -> Self {
         let upper = |curve: &Curve| match hand {
             Hand::Left => frame.curve(curve),
-            // The other wall runs against the advance.
+            // The other wall is directed against the advance.
             Hand::Right => mirrored(&frame.curve(curve).reversed(), 1),
         };
         let curves: Vec<Curve> = wall.parts.iter().map(|part| upper(&part.curve)).collect();
@@ -73,7 +73,7 @@ impl UpperWall {
         Self { sides: [behind.iter().rev().map(backwards).collect(), ahead.to_vec()] }
     }
 
-    /// Height in m of each side at its farthest point along the way: as far as the wall is seen by who passes.
+    /// Height in m of each side at its point of largest x.
     pub(crate) fn widest(&self) -> [f64; 2] {
         [0, 1].map(|side| {
             let farthest = points(&self.sides[side]).max_by(|a, b| a.x.total_cmp(&b.x));
@@ -86,7 +86,7 @@ impl UpperWall {
         [0, 1].map(|side| points(&self.sides[side]).fold(0.0, |high: f64, point| high.max(point.y)))
     }
 
-    /// Largest height in m from the chord to a contact, which is in the frame of the wall; none where the contact is not on it.
+    /// Largest height in m between the chord and a contact in the frame of the wall; `None` if the contact is not on it.
     pub(crate) fn height_to(&self, contact: Vec2, tolerance: f64) -> Option<f64> {
         [Vec2::new(-contact.x, contact.y), contact].into_iter().zip(&self.sides).find_map(|(contact, side)| {
             let on = side.iter().position(|curve| (curve.project(contact).point - contact).norm() <= tolerance)?;
@@ -107,19 +107,19 @@ fn points(curves: &[Curve]) -> impl Iterator<Item = Vec2> {
     curves.iter().flat_map(|curve| sampled(curve, 1.0))
 }
 
-/// One side of a wall as far as the cut-out needs it.
+/// One side of a wall, truncated to the subdomain.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Followed {
     /// Its curves from the chord on.
     pub(crate) curves: Vec<Curve>,
-    /// Where it ends.
+    /// Its end point.
     pub(crate) end: Vec2,
     /// Whether it has risen to the level.
     pub(crate) is_risen: bool,
 }
 
 impl Followed {
-    /// How far it reaches along the way in m.
+    /// Largest x in m.
     pub(crate) fn farthest(&self) -> f64 {
         points(&self.curves).map(|point| point.x).fold(self.end.x, f64::max)
     }
@@ -130,7 +130,7 @@ impl Followed {
     }
 }
 
-/// Follows one side of a wall from `start`, the end of the chord, until it rises to `level` or is as far as `reach`, in m.
+/// Follows one side of a wall from `start`, the end of the chord, until it rises to the height `level` or reaches x = `reach`, in m.
 pub(crate) fn follow(side: &[Curve], start: Vec2, level: f64, reach: f64) -> Followed {
     let mut curves: Vec<Curve> = Vec::new();
     let is_out = |point: Vec2| point.y >= level || point.x >= reach;
@@ -154,7 +154,7 @@ pub(crate) fn follow(side: &[Curve], start: Vec2, level: f64, reach: f64) -> Fol
     up_to_highest(side, start)
 }
 
-/// A side that does not rise so far: up to its highest place, beyond which it leads down behind the body.
+/// A side that does not rise to the level: up to its highest point, past which it descends behind the body.
 fn up_to_highest(side: &[Curve], start: Vec2) -> Followed {
     let (mut end, mut last) = (start, None);
     for (index, curve) in side.iter().enumerate() {

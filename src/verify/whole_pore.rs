@@ -1,9 +1,9 @@
-//! The cut-out of a whole pore for a touch or an overlap: its three bodies, and the invading phase up to the menisci before the event.
+//! The subdomain of a touch or an overlap: a whole pore of three bodies, and the invading phase up to the menisci before the event.
 //!
-//! Of a touch the bodies are both walls of the throat and the wall ahead; of an overlap the wall that both menisci share and the outer ones.
-//! The x axis is the way of the invading phase past the upper and the lower body, which go on as straight pillars to the sides of the box and
-//! part both phases there; the third body stands freely between. The invading phase comes in on the left and the defending one leaves on the
-//! right, both at given pressures. Bodies are completed to discs; a pore with other walls has no such cut-out.
+//! For a touch the bodies are both walls of the throat and the wall ahead; for an overlap the wall between both menisci and the outer ones.
+//! The x axis is the flow direction of the invading phase past the upper and the lower body, which are extended as straight pillars to the
+//! sides of the box and separate both phases there; the third body is free between them. The invading phase enters on the left and the
+//! defending one leaves on the right, both at given pressures. Bodies are completed to discs; pores with other walls have no such subdomain.
 
 use std::f64::consts::FRAC_PI_8;
 
@@ -15,31 +15,31 @@ use crate::interface::menisci::{Meniscus, Passage, WallPart};
 use crate::math::{Bounds, Vec2, perpendicular};
 use crate::network::displacement::{EventKind, Place, Scene};
 
-/// Room between the third body and the sides of the box, in widths: no narrower than the throat.
+/// Clearance between the third body and the sides of the box, in widths: no narrower than the throat.
 const ROOM: f64 = 1.0;
-/// Room between bodies and the inlet or outlet, in widths.
+/// Clearance between bodies and the inlet or outlet, in widths.
 const ROOM_AT_ENDS: f64 = 1.5;
-/// Where the inlet or outlet may cut the outer bodies, in their radii: elsewhere it lies beyond them.
+/// Position, in radii, where the inlet or outlet may cut the outer bodies: otherwise it lies outside them.
 const CUT: f64 = 0.5;
-/// Room ahead of menisci and behind them, in widths.
+/// Clearance ahead of menisci and behind them, in widths.
 const ROOM_ALONG: f64 = 2.0;
-/// How far below the event the menisci are compared with box and walls, as curvature times width.
+/// Distance below the event at which menisci are compared with box and walls, as curvature times width.
 const BELOW: f64 = 0.1;
-/// Least gap between two of the bodies, in widths: spacings are chosen by it, and their number goes with the square.
+/// Least gap between two bodies, in widths: it determines the spacing, and the number of particles scales with its inverse square.
 const NARROWEST: f64 = 0.5;
-/// Lengths below this share of the width are rounding.
+/// Rounding error of lengths, in widths.
 const ROUNDING: f64 = 1e-9;
-/// The same of a touch, which is a double root.
+/// The same for a touch, which is a double root.
 const TOUCHING: f64 = 1e-5;
-/// Points of a meniscus that are compared with the walls.
+/// Points of a meniscus at which it is compared with the walls.
 const POINTS: usize = 201;
 
-/// A pore on its own, in a frame whose x axis is the way of the invading phase.
+/// An isolated pore, in a frame whose x axis is the flow direction of the invading phase.
 #[derive(Debug, Clone)]
 pub struct WholePore {
-    /// What happens.
+    /// Kind of the event.
     pub kind: EventKind,
-    /// Where it stands in the network.
+    /// Its frame in the network.
     pub frame: Frame,
     /// Width in m of the narrowest throat with a meniscus.
     pub width: f64,
@@ -49,20 +49,20 @@ pub struct WholePore {
     pub angle: f64,
     /// Curvature of the menisci at the event in 1/m.
     pub curvature: f64,
-    /// Curvature in 1/m below which they draw back out of their throats.
+    /// Curvature in 1/m below which they recede from their throats.
     pub lowest: f64,
-    /// Area in m² that the invading phase fills by the event.
+    /// Area in m² that the event fills with the invading phase.
     pub area: f64,
     /// The box and the bodies.
     pub geometry: GeometrySpec,
-    /// Other bodies that reach into the box and are left out.
+    /// Number of other bodies that reach into the box and are left out.
     pub left_out: usize,
     bodies: Bodies,
     /// From the upper body to the lower one.
     passages: Vec<Passage>,
 }
 
-/// The bodies in the frame of the cut-out, lengths in m.
+/// The bodies in the frame of the subdomain, lengths in m.
 #[derive(Debug, Clone, PartialEq)]
 struct Bodies {
     upper: Disc,
@@ -71,7 +71,7 @@ struct Bodies {
 }
 
 impl WholePore {
-    /// The cut-out for an event at a curvature (1/m) that fills elements of an area (m²); `angles` are those of all walls in rad.
+    /// The subdomain of an event at a curvature (1/m) that fills an area (m²); `angles` are those of all walls in rad.
     pub(crate) fn new(
         kind: EventKind,
         scene: &Scene,
@@ -110,8 +110,8 @@ impl WholePore {
         Ok(Self { kind, frame, width, narrowest, angle, curvature, lowest, area, geometry, left_out, bodies, passages })
     }
 
-    /// What the invading phase fills at a curvature (1/m) of its menisci before the event; it reaches out of the box. None where no menisci
-    /// stand at this curvature.
+    /// Shape of the invading phase at a curvature (1/m) of its menisci before the event; it extends past the box. `None` if there are no
+    /// menisci of this curvature.
     pub fn behind(&self, curvature: f64) -> Option<CurvedPolygon> {
         let arcs = arcs(&self.passages, &self.frame, curvature)?;
         let Bodies { upper, lower, .. } = &self.bodies;
@@ -119,7 +119,7 @@ impl WholePore {
         let (left, bottom) = (self.geometry.min[0] - room, self.geometry.min[1] - room);
         let top = self.geometry.max[1] + room;
         let (high, low) = (Vec2::from(upper.center), Vec2::from(lower.center));
-        // Between the arcs the boundary runs through the bodies.
+        // Between the menisci the boundary runs through the bodies.
         let corners = [Vec2::new(left, top), Vec2::new(left, bottom), Vec2::new(low.x, bottom), low];
         let mut ring: Vec<Curve> = corners.windows(2).map(|pair| Curve::Segment { a: pair[0], b: pair[1] }).collect();
         let mut at = low;
@@ -133,7 +133,7 @@ impl WholePore {
     }
 }
 
-/// The menisci at a curvature in the frame, from the upper body to the lower one.
+/// The menisci of a curvature in the frame, from the upper body to the lower one.
 fn arcs(passages: &[Passage], frame: &Frame, curvature: f64) -> Option<Vec<Curve>> {
     let arc = |passage: &Passage| passage.at(curvature).map(|meniscus: Meniscus| frame.curve(&meniscus.curve()));
     passages.iter().map(arc).collect()
@@ -161,7 +161,7 @@ fn bodies(kind: EventKind, scene: &Scene, curvature: f64) -> Result<(Bodies, Vec
     }
 }
 
-/// The disc that a wall is an arc of.
+/// The disc whose boundary contains a wall.
 fn disc_of(parts: &[WallPart]) -> Result<Disc, Impossible> {
     let mut found: Option<Disc> = None;
     for part in parts {
@@ -196,18 +196,18 @@ fn touched(meniscus: &Meniscus, ahead: &[Curve], width: f64) -> Result<Disc, Imp
     // Both circles meet under the angle zero.
     let center = Vec2::from(disc.center);
     let from_points = points.iter().map(|x| (x - center).norm() - disc.radius).fold(f64::INFINITY, f64::min);
-    // Points of the arc lie off the place of touch by less than their distance, squared over twice the radius of the disc.
+    // Near the point of touch, points of the arc are off the disc by less than their distance squared over twice its radius.
     let step = meniscus.curve().length() / (POINTS - 1) as f64;
     let slack = TOUCHING * width + step * step / disc.radius.min(width);
     if from_points.abs() <= slack { Ok(disc) } else { Err(Impossible::Contact) }
 }
 
-/// Distance of two bodies in m.
+/// Gap between two bodies in m.
 fn gap(one: &Disc, other: &Disc) -> f64 {
     (Vec2::from(one.center) - Vec2::from(other.center)).norm() - one.radius - other.radius
 }
 
-/// The frame of bodies: its y axis leads from the lower to the upper one, its origin lies in the middle between them.
+/// The frame of bodies: its y axis points from the lower to the upper one, its origin is the midpoint between them.
 fn frame(bodies: &Bodies) -> Frame {
     let (upper, lower) = (Vec2::from(bodies.upper.center), Vec2::from(bodies.lower.center));
     let up = (upper - lower).normalize();
@@ -219,7 +219,7 @@ fn frame(bodies: &Bodies) -> Frame {
 impl Bodies {
     fn within(&self, frame: &Frame) -> Self {
         let moved = |disc: &Disc| Disc { center: frame.point(Vec2::from(disc.center)).into(), radius: disc.radius };
-        // Both lie on the y axis, but for rounding.
+        // Both lie on the y axis, up to rounding.
         let on_axis = |disc: &Disc| Disc { center: [0.0, moved(disc).center[1]], radius: disc.radius };
         Self { upper: on_axis(&self.upper), lower: on_axis(&self.lower), third: moved(&self.third) }
     }
@@ -234,7 +234,7 @@ impl Bodies {
         gap(upper, third).min(gap(third, lower)).min(gap(upper, lower))
     }
 
-    /// Whether both phases can get in and out.
+    /// Whether both phases can enter and leave.
     fn check(&self, width: f64) -> Result<(), Impossible> {
         let height = self.third.center[1];
         if height > self.upper.center[1] || height < self.lower.center[1] {
@@ -243,7 +243,7 @@ impl Bodies {
         if self.narrowest() < NARROWEST * width { Err(Impossible::Narrow) } else { Ok(()) }
     }
 
-    /// Whether menisci lie clear of the bodies, with contacts where these are round.
+    /// Whether menisci are clear of the bodies, with contacts on their round parts.
     fn hold(&self, arcs: &[Curve], width: f64) -> Result<(), Impossible> {
         let Self { upper, lower, .. } = self;
         for arc in arcs {
@@ -263,7 +263,7 @@ impl Bodies {
         Ok(())
     }
 
-    /// The box with the bodies; `arcs` are menisci before the event and at it.
+    /// The box with the bodies; `arcs` are the menisci before and at the event.
     fn geometry(&self, kind: EventKind, arcs: &[Curve], width: f64) -> GeometrySpec {
         let Self { upper, lower, third } = self;
         let reached =
@@ -292,7 +292,7 @@ impl Bodies {
         GeometrySpec { min: [left, bottom], max: [right, top], solid: SolidSide::Inside, shapes }
     }
 
-    /// How many of the other walls reach into the box.
+    /// Number of other walls that reach into the box.
     fn count(&self, places: &[Place], frame: &Frame, geometry: &GeometrySpec, width: f64) -> usize {
         let is_in = |x: Vec2| (0..2).all(|i| x[i] > geometry.min[i] && x[i] < geometry.max[i]);
         let near = 1e3 * ROUNDING * width;
@@ -305,10 +305,10 @@ impl Bodies {
     }
 }
 
-/// A disc that goes on straight from where it is widest to a height in m.
+/// A disc extended straight from its widest point to a height in m.
 fn pillar(disc: &Disc, height: f64) -> CurvedPolygon {
     let ([x, y], radius) = (disc.center, disc.radius);
-    // Counter-clockwise on both hands.
+    // Counter-clockwise on either side.
     let side = if height > y { radius } else { -radius };
     let quarter = (FRAC_PI_8).tan();
     let outer = vec![

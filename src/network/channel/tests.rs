@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::*;
 
-/// Two discs or corners below and above the origin whose walls stand `w` apart, up to the center of a pore.
+/// Two discs or corners below and above the origin with a gap `w`, up to the center of a pore.
 fn resistance([below, above]: [f64; 2], w: f64, center: Vec2) -> f64 {
     let wall = |radius: f64, side: f64| {
         let begin = Vec2::new(0.0, 0.5 * w * side);
@@ -47,7 +47,7 @@ fn two_discs_of_any_radii_resist_as_in_bipolar_coordinates() {
         for (w, end) in [(0.01, 1.0), (0.1, 0.7), (1.0, 0.5)] {
             let (expected, center) = in_bipolar_coordinates(radii, w, end);
             let found = resistance(radii, w, center);
-            // Fourth order in the length of a step.
+            // Fourth order in the step length.
             assert!((found / expected - 1.0).abs() < 2e-4, "{radii:?}, {w}: {found} and {expected}");
         }
     }
@@ -84,7 +84,7 @@ fn narrow_throats_resist_as_close_cylinders() {
 
 #[test]
 fn a_slit_in_a_thin_screen_resists_as_stokes_flow_through_it() {
-    // Exact is g = π w²/32 (Hasimoto 1958). Walls that turn about corners and stand back to back are the farthest from lubrication.
+    // Exact is g = π w²/32 (Hasimoto 1958). Walls that turn about corners, back to back, are the farthest from lubrication.
     let v = Vec2::new;
     let side = |sign: f64| {
         let curve = Curve::Segment { a: v(0.0, sign * 0.5), b: v(0.0, sign * 1e4) };

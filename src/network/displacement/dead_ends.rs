@@ -1,9 +1,9 @@
-//! Dead ends of a loop: passages that a wall leads into and out of again, and that do not widen again beyond their mouth.
+//! Dead ends of a loop: passages bounded by one wall on both sides that do not widen past their mouth.
 //!
-//! The wall distance falls, or stays level, from the mouth to the end, so that no saddle parts a dead end from the pore that it opens into. Its menisci have
-//! an event all the same: they enter at the largest curvature between both of its walls. A mouth is the chord between a place
-//! where a wall turns into the passage and the wall that faces it there; within a small angle both walls run side by side from there on. Chords of mouths
-//! divide a loop as segments do. Notches that are shallower than half of their width, and wedges, are no dead ends.
+//! The wall distance does not rise from the mouth to the end, so no saddle separates a dead end from its pore. Its menisci have an event
+//! nevertheless: they enter at the largest curvature between both of its walls. A mouth is the chord between a point where a wall turns into
+//! the passage and the facing wall; from there on both walls are parallel within a small angle. Chords of mouths divide a loop as segments
+//! do. Notches shallower than half of their width, and wedges, are not dead ends.
 
 use std::f64::consts::PI;
 
@@ -16,12 +16,12 @@ use crate::network::graph::WallPiece;
 const TURNS_IN: f64 = 0.2;
 /// Largest angle in rad between both walls of a dead end.
 const CONVERGES: f64 = 0.6;
-/// Share of half of the chord that is free around its middle: walls that converge by that angle leave less than all of it.
+/// Free radius around the middle of the chord over half its length: below 1 since walls may converge by that angle.
 const FREE: f64 = 0.95;
-/// Most chords of one stretch of wall that are looked at, the longest dead ends first.
+/// Maximum number of chords examined per stretch of wall, the longest dead ends first.
 const MOST_CHORDS: usize = 64;
 
-/// A chord across the mouth of a dead end, from where the wall enters to where it leaves.
+/// The chord across the mouth of a dead end, from where the wall enters to where it leaves.
 struct Mouth {
     wall: usize,
     from: WallPoint,
@@ -31,15 +31,15 @@ struct Mouth {
 }
 
 impl Mouth {
-    /// The longest dead end first, of one dead end the shortest chord.
+    /// Order: the longest dead end first, for one dead end the shortest chord.
     fn order(a: &Self, b: &Self) -> std::cmp::Ordering {
         let chord = |mouth: &Self| (mouth.to.point - mouth.from.point).norm();
         b.length.total_cmp(&a.length).then(chord(a).total_cmp(&chord(b)))
     }
 }
 
-/// The loop without its dead ends, and these. `center` is that of the inscribed circle of the region. Segments are numbered from
-/// `segments` on, which counts them.
+/// The loop without its dead ends, and the dead ends. `center` is that of the inscribed circle of the region. Segments are numbered from
+/// `segments` on, which is advanced.
 pub(super) fn cut_dead_ends(whole: Loop, center: Vec2, segments: &mut usize) -> Vec<Loop> {
     let is_bent = |wall: &Vec<WallPiece>| turns(wall).iter().filter(|turn| **turn < 0.0).sum::<f64>() < CONVERGES - PI;
     if whole.has_seam || whole.crossings.len() != whole.walls.len() || !whole.walls.iter().any(is_bent) {
@@ -57,7 +57,7 @@ pub(super) fn cut_dead_ends(whole: Loop, center: Vec2, segments: &mut usize) -> 
     found
 }
 
-/// The turns of a wall in rad, to the left above 0: of each piece and at the joint after it, in turn.
+/// Turning angles of a wall in rad, positive to the left, alternating between each piece and the joint after it.
 fn turns(wall: &[WallPiece]) -> Vec<f64> {
     let mut found = Vec::with_capacity(2 * wall.len());
     for (k, piece) in wall.iter().enumerate() {
@@ -87,13 +87,13 @@ fn mouth(part: &Loop, center: Vec2) -> Option<Mouth> {
     })
 }
 
-/// The chords between a place where a wall turns into a passage and the wall that faces it.
+/// The chords between a point where a wall turns into a passage and the facing wall.
 fn chords(part: &Loop, wall: usize) -> Vec<Mouth> {
     let pieces = &part.walls[wall];
     let turns = turns(pieces);
     let length = |pieces: &[WallPiece]| pieces.iter().map(|piece| piece.curve.length()).sum::<f64>();
     let is_convex = |k: usize| matches!(pieces[k].curve, Curve::Arc { sweep, .. } if sweep > 0.0);
-    // Joints at which the wall turns in as it is followed forwards, and backwards.
+    // Joints at which the wall turns in, followed forwards and backwards.
     let enters = |k: usize| k > 0 && (turns[2 * k - 1] > TURNS_IN || (is_convex(k - 1) && !is_convex(k)));
     let leaves =
         |k: usize| k + 1 < pieces.len() && (turns[2 * k + 1] > TURNS_IN || (is_convex(k + 1) && !is_convex(k)));
@@ -102,7 +102,7 @@ fn chords(part: &Loop, wall: usize) -> Vec<Mouth> {
         let mut turned = turns[2 * first];
         for last in first + 1..pieces.len() {
             turned += turns[2 * last - 1] + turns[2 * last];
-            // Two walls that meet in an edge are a wedge.
+            // Two walls that meet in an edge form a wedge.
             let is_wedge = last == first + 1;
             if is_wedge || (turned + PI).abs() > CONVERGES || !(enters(first) || leaves(last)) {
                 continue;
@@ -112,7 +112,7 @@ fn chords(part: &Loop, wall: usize) -> Vec<Mouth> {
             let end = WallPoint { piece: last, u: 1.0, point: q };
             let between = length(&pieces[first..=last]);
             let mut add = |from, to| found.push(Mouth { wall, from, to, length: between });
-            // The wall that faces an edge may go on beyond it.
+            // The facing wall may continue past the edge.
             if enters(first) {
                 let foot = pieces[last].curve.project(p);
                 if foot.u > 0.0 {

@@ -1,5 +1,4 @@
-//! A displacement whose events another model times: it asks which menisci there are and what each of them waits for, and tells which
-//! elements are filled.
+//! Interface for a model that determines the time of events: it queries menisci and their events, and reports filled elements.
 
 use super::event::{Candidate, EventKind};
 use super::loops::GateId;
@@ -11,26 +10,26 @@ use crate::network::graph::WallPiece;
 /// A gate and the end at which a meniscus enters.
 pub(crate) type FrontId = (usize, usize);
 
-/// What will let a meniscus, or two that meet, go on.
+/// A pending event of a meniscus, or of two that meet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Advance {
-    /// What happens.
+    /// Kind of the event.
     pub(crate) kind: EventKind,
-    /// Curvature in 1/m at which it does.
+    /// Curvature of the event in 1/m.
     pub(crate) curvature: f64,
-    /// The meniscus, and the one that it meets.
+    /// The meniscus, and the one that it meets, if any.
     pub(crate) fronts: (FrontId, Option<FrontId>),
-    /// The elements that are filled then: from that ahead of the first meniscus to that ahead of the second.
+    /// The elements filled by the event, from that ahead of the first meniscus to that ahead of the second.
     pub(crate) fills: Vec<usize>,
     candidate: Candidate,
 }
 
-/// A gate as a place that fluids flow through.
+/// A gate as a passage for flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GateFacts {
     /// The elements on both sides.
     pub(crate) elements: [usize; 2],
-    /// The throat of the network, where it is one; its regions are those of both sides.
+    /// The throat of the network, if it is one; its regions are those of both sides.
     pub(crate) throat: Option<usize>,
     /// Length of its chord in m.
     pub(crate) width: f64,
@@ -72,25 +71,25 @@ impl Displacement {
         loops.flat_map(|&part| self.mesh.loops[part].walls.iter().flatten())
     }
 
-    /// The menisci that wait, in order.
+    /// The menisci in gates, in order.
     pub(crate) fn waiting(&self) -> impl Iterator<Item = FrontId> + '_ {
         let gates = self.fronts.iter().enumerate();
         gates.flat_map(|(gate, ends)| (0..2).filter(|&end| ends[end].is_some()).map(move |end| (gate, end)))
     }
 
-    /// Where a waiting meniscus can stand, and the curvature in 1/m of its own event.
+    /// The passage of a meniscus, and the curvature in 1/m of its own event.
     pub(crate) fn front(&self, (gate, end): FrontId) -> Option<(&Passage, f64)> {
         self.fronts[gate][end].as_ref().map(|front| (&front.passage, front.own))
     }
 
-    /// Where a meniscus could stand that entered an element through a gate, and the curvature in 1/m of its own event.
+    /// The passage of a hypothetical meniscus entering an element through a gate, and the curvature in 1/m of its own event.
     pub(crate) fn front_to_come(&self, (gate, end): FrontId) -> (Passage, f64) {
         let (passage, obstacles) = self.passage_at(&self.conditions.angle, &self.mesh, (gate, end), Vec2::zeros());
         let own = self.own_event(&passage, &obstacles).1;
         (passage, own)
     }
 
-    /// The gates of an element with the end that lies in it.
+    /// The gates of an element, each with the end that lies in it.
     pub(crate) fn gates_of(&self, element: usize) -> &[FrontId] {
         &self.mesh.elements[element].gates
     }
@@ -105,7 +104,7 @@ impl Displacement {
         &self.conditions.angle
     }
 
-    /// What the menisci that are new since the last call wait for.
+    /// The pending events of menisci that are new since the last call.
     pub(crate) fn new_advances(&mut self) -> Vec<Advance> {
         let mut candidates: Vec<Candidate> = std::mem::take(&mut self.queue).into_vec();
         candidates.sort_by(|a, b| b.cmp(a));
@@ -125,7 +124,7 @@ impl Displacement {
         Some(Advance { kind, curvature, fronts: ((gate, to), Some(front)), fills: neighbor.passed, candidate })
     }
 
-    /// Whether the menisci of an advance still wait, and still meet.
+    /// Whether the menisci of an advance still exist, and still meet.
     pub(crate) fn still_waits(&self, advance: &Advance) -> bool {
         let ((gate, to), partner) = advance.fronts;
         let waits = |(gate, end): FrontId| self.fronts[gate][end].is_some();
@@ -137,7 +136,7 @@ impl Displacement {
         partner.is_some_and(waits) && neighbor.is_some_and(|found| Some(found.front) == partner)
     }
 
-    /// An element is full of the invading phase: menisci into it end, and new ones wait in its gates.
+    /// An element is full of the invading phase: menisci into it vanish, and new ones form in its gates.
     pub(crate) fn complete(&mut self, element: usize) {
         let mesh = self.mesh.clone();
         self.fill(&mesh, &[element]);

@@ -1,20 +1,20 @@
-//! What events there are, and which of them comes first.
+//! Types of events, and their order.
 
 use crate::interface::menisci::Hand;
 
-/// What let a meniscus go on.
+/// The type of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EventKind {
-    /// It passed the largest curvature of its gate.
+    /// A meniscus passed the largest curvature of its gate.
     Burst,
-    /// It touched a wall ahead.
+    /// A meniscus touched a wall ahead.
     Touch,
-    /// It met its neighbor on the wall between them.
+    /// A meniscus met its neighbor on the wall between them.
     Overlap,
-    /// No meniscus moved: the films in a throat met and closed it.
+    /// Films in a throat met and closed it; no meniscus moved.
     SnapOff,
-    /// It passed a throat that films had closed, and the invading phase is joined again.
+    /// A meniscus passed a throat closed by films, and the invading phase is connected again.
     Reconnection,
 }
 
@@ -31,20 +31,18 @@ impl EventKind {
     }
 }
 
-/// An event that will come unless another comes before it.
+/// A pending event, which another event may prevent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Candidate {
     /// Curvature of the meniscus in 1/m.
     pub(crate) curvature: f64,
-    /// What will happen.
     pub(crate) kind: EventKind,
-    /// The gate.
     pub(crate) gate: usize,
     /// The end of the gate at which the meniscus enters.
     pub(crate) to: usize,
-    /// The meniscus to meet, and on which hand.
+    /// The meniscus to meet, and its side.
     pub(crate) partner: Option<((usize, usize), Hand)>,
-    /// Whether both have met and wait as one.
+    /// Whether both have met and merged.
     pub(crate) is_joined: bool,
 }
 
@@ -57,7 +55,7 @@ impl PartialOrd for Candidate {
 }
 
 impl Ord for Candidate {
-    /// The greatest is the one that comes first.
+    /// The greatest comes first.
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         let number = |it: &Self| (it.gate, it.to, it.partner.map(|(front, hand)| (front, hand == Hand::Right)));
         let by_number = number(other).cmp(&number(self));

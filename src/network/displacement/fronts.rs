@@ -1,4 +1,4 @@
-//! Menisci that wait in gates: their passages, the events that they wait for, and their neighbors along the walls.
+//! Menisci in gates: their passages, pending events, and neighbors along the walls.
 
 use super::event::{Candidate, EventKind};
 use super::loops::Loop;
@@ -11,7 +11,7 @@ use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
 
-/// What is added to a wall beside a crossing of a loop so that it meets it.
+/// Shift of a wall beside a crossing of a loop so that both meet.
 type SeamOf = fn(&Loop, usize) -> Vec2;
 
 /// The next meniscus along a wall.
@@ -20,14 +20,14 @@ pub(super) struct Neighbor {
     pub(crate) front: (usize, usize),
     /// Length of wall between both gates in m.
     shared: f64,
-    /// What is added to a position in its frame to get that in the frame of the meniscus it is the neighbor of, in m.
+    /// Shift in m from its frame to that of the meniscus of which it is the neighbor.
     pub(crate) offset: Vec2,
     /// The elements in between.
     pub(crate) passed: Vec<usize>,
 }
 
 impl Displacement {
-    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, moved by `offset` in m.
+    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, shifted by `offset` in m.
     fn passage(&self, mesh: &Mesh, gate: usize, to: usize, offset: Vec2) -> (Passage, Vec<Curve>) {
         self.passage_at(&self.conditions.angle, mesh, (gate, to), offset)
     }
@@ -51,11 +51,11 @@ impl Displacement {
         (Passage::new(wall(&walls.left), wall(&walls.right)), obstacles)
     }
 
-    /// Lets a meniscus wait in a gate, about to enter it at its end `to`.
+    /// Places a meniscus in a gate, to enter the element at its end `to`, with its pending events.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
         let (mut kind, mut own) = self.own_event(&passage, &obstacles);
-        // What touches before a measured burst still touches.
+        // A touch before a measured burst remains a touch.
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let burst = self.conditions.burst(mesh.gates[gate].throat, formula);
         if kind == EventKind::Burst || burst < own {
@@ -68,7 +68,7 @@ impl Displacement {
         self.fronts[gate][to] = Some(Front { passage, own });
     }
 
-    /// The event that a meniscus waits for by itself, and its curvature in 1/m.
+    /// The event of a meniscus by itself, and its curvature in 1/m.
     pub(super) fn own_event(&self, passage: &Passage, obstacles: &[Curve]) -> (EventKind, f64) {
         let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         if self.conditions.events == Events::All
@@ -111,7 +111,7 @@ impl Displacement {
             (Loop::wall_after, Loop::wall_before)
         };
         found.offset += from_crossing(&mesh.loops[index], slot);
-        // A wall has no more stretches than there are loops.
+        // A wall has at most as many stretches as there are loops.
         for _ in 0..mesh.loops.len() {
             found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
             let crossing = if hand == Hand::Left { wall } else { before(index, wall) };
@@ -136,8 +136,8 @@ impl Displacement {
         None
     }
 
-    /// Curvature in 1/m at which the meniscus goes on that two neighbors have become, between the outer walls of both: it bursts, or touches a
-    /// wall ahead of either. Within one element it has nothing to wait for.
+    /// Curvature in 1/m of the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both. Within one
+    /// element it advances at once.
     pub(super) fn joined_event(&self, mesh: &Mesh, front: (usize, usize), hand: Hand, neighbor: &Neighbor) -> f64 {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;
@@ -147,7 +147,7 @@ impl Displacement {
         passage.touch(&obstacles, burst).unwrap_or(burst)
     }
 
-    /// The passage of the meniscus that two neighbors have become, and the walls ahead of it.
+    /// The passage of the meniscus into which two neighbors merge, and the walls ahead of it.
     pub(super) fn joined_passage(
         &self,
         mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! The menisci that an event is about, with the walls between which they stand.
+//! The menisci of an event, with their walls.
 
 use super::driven::FrontId;
 use super::fronts::Neighbor;
@@ -7,7 +7,7 @@ use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Hand, Passage};
 use crate::math::Vec2;
 
-/// The meniscus of an event, and that which it met.
+/// The meniscus of an event, and the one that it met, if any.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Involved {
     front: FrontId,
@@ -19,12 +19,12 @@ pub struct Involved {
 struct Met {
     front: FrontId,
     hand: Hand,
-    /// What is added to a position in its frame to get that in the frame of the other one, in m.
+    /// Shift in m from its frame to that of the other one.
     offset: Vec2,
     has_waited: bool,
 }
 
-/// Where a meniscus can stand, and the other walls ahead of it.
+/// The passage of a meniscus, and the other walls ahead of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Place {
     /// Both walls.
@@ -36,9 +36,9 @@ pub(crate) struct Place {
 /// The menisci of an event with their walls, in one frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
-    /// From left to right, seen in the direction of advance: one, or the two of an overlap, which share the wall between them.
+    /// From left to right in the direction of advance: one, or the two of an overlap, which share the wall between them.
     pub(crate) places: Vec<Place>,
-    /// Whether two menisci met at a lower pressure than that of the event, and waited as one.
+    /// Whether two menisci merged at a lower pressure than that of the event.
     pub(crate) has_waited: bool,
 }
 
@@ -65,7 +65,7 @@ impl Displacement {
         let one = place(front, Vec2::zeros());
         let Some(met) = met else { return Scene { places: vec![one], has_waited: false } };
         let other = place(met.front, met.offset);
-        // The wall on its left leads from a meniscus to the one that stands on the left of it.
+        // The wall on the left of a meniscus leads to its left neighbor.
         let places = if met.hand == Hand::Left { vec![other, one] } else { vec![one, other] };
         Scene { places, has_waited: met.has_waited }
     }

@@ -1,9 +1,9 @@
-//! Closed loops of walls and gates, and how a loop between more than three walls is divided.
+//! Closed loops of walls and gates, and the division of loops between more than three walls.
 //!
-//! A meniscus that advances through a gate moves along two walls and may touch a third one. So that each such event has one place, a pore
-//! region with more than three stretches of wall on its loop is divided by the shortest segments from wall to wall that lie in it
-//! (for discs mostly the Delaunay edges of neighbors that no throat joins), until each part has three stretches of wall or no segment
-//! is left. The parts tile the region.
+//! A meniscus that advances through a gate moves along two walls and may touch a third one. For each such event to have its own element, a
+//! pore region with more than three stretches of wall on its loop is divided by the shortest segments from wall to wall inside it (for
+//! discs mostly the Delaunay edges of neighbors without a throat), until each part has three stretches of wall or no segment is left. The
+//! parts tile the region.
 
 use crate::geometry::closest::closest_points as closest;
 use crate::geometry::curve::{ClosestPoint, Curve, cross};
@@ -11,24 +11,24 @@ use crate::geometry::intersect::meeting_places;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
 
-/// Lengths that differ by less than this share are equal.
+/// Relative tolerance of equal lengths.
 const SAME_LENGTH: f64 = 1e-9;
 
-/// What follows a stretch of wall on a loop.
+/// A crossing between two stretches of wall on a loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Crossing {
     /// The gate.
     pub(crate) gate: GateId,
-    /// Where its chord begins in m: the stretch of wall before it ends there.
+    /// Start of its chord in m, the end of the stretch of wall before it.
     pub(crate) from: Vec2,
-    /// Where its chord ends in m.
+    /// End of its chord in m.
     pub(crate) to: Vec2,
 }
 
-/// A place where fluid passes from one element to another.
+/// The type of a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum GateId {
-    /// A throat of the network, seen from its first (0) or second (1) region.
+    /// A throat of the network, from its first (0) or second (1) region.
     Throat(usize, usize),
     /// An opening of an open side.
     Opening(usize),
@@ -43,9 +43,9 @@ pub(super) struct Loop {
     pub(crate) walls: Vec<Vec<WallPiece>>,
     /// As many crossings, each after the stretch of the same number.
     pub(crate) crossings: Vec<Crossing>,
-    /// Openings along whole sides that meet no wall.
+    /// Openings along whole sides without walls.
     pub(crate) apart: Vec<Crossing>,
-    /// Whether somewhere one curve does not begin at the end of the one before: around a periodic domain.
+    /// Whether somewhere a curve does not begin at the end of the previous one, as around a periodic domain.
     pub(crate) has_seam: bool,
 }
 
@@ -64,14 +64,13 @@ impl WallPoint {
 }
 
 impl Loop {
-    /// What is added to the wall before crossing `k` so that it ends there: a whole period at the seam of a loop that goes around a periodic
-    /// domain, else zero.
+    /// Shift of the wall before crossing `k` so that it ends there: a whole period at the seam of a loop around a periodic domain, else zero.
     pub(crate) fn wall_before(&self, k: usize) -> Vec2 {
         let end = self.walls[k].last().map(|piece| piece.curve.point(1.0));
         self.seam(end, self.crossings[k].from)
     }
 
-    /// The same of the wall after crossing `k`.
+    /// The same for the wall after crossing `k`.
     pub(crate) fn wall_after(&self, k: usize) -> Vec2 {
         let start = self.walls[(k + 1) % self.walls.len()].first().map(|piece| piece.curve.point(0.0));
         self.seam(start, self.crossings[k].to)
@@ -87,8 +86,7 @@ impl Loop {
         end.map(|end| crossing - end).filter(|gap| gap.norm() > ROUNDING * shortest).unwrap_or_default()
     }
 
-    /// All curves of the loop in order, chords included, and straight connections where one does not begin at the end of the one before:
-    /// along the seam of a region that goes around a periodic domain.
+    /// All curves of the loop in order, including chords and straight connections across the seam of a region around a periodic domain.
     pub(crate) fn curves(&self) -> Vec<Curve> {
         self.connected().0
     }
@@ -136,8 +134,8 @@ impl Loop {
         -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()
     }
 
-    /// The two parts of the loop on both sides of the shortest segment that divides it; none where there is no such segment. Segments of equal
-    /// length that cross each other, as the diagonals of a square array, divide nothing.
+    /// The two parts of the loop on both sides of the shortest dividing segment; `None` if there is none. Segments of equal length that cross
+    /// each other, as the diagonals of a square array, are not used.
     fn divided(&self, segment: usize) -> Option<[Self; 2]> {
         let count = self.walls.len();
         let mut candidates: Vec<(f64, usize, usize, WallPoint, WallPoint)> = Vec::new();
@@ -194,9 +192,9 @@ fn do_cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
     are_apart(cross(b - a, c - a), cross(b - a, d - a)) && are_apart(cross(d - c, a - c), cross(d - c, b - c))
 }
 
-/// Whether the segment between two points of the walls of a loop lies in it without meeting any of its curves in between.
+/// Whether the segment between two points on the walls of a loop lies inside it without meeting any of its curves in between.
 pub(super) fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
-    // Share of the segment at both ends that may meet the walls it stands on.
+    // Fraction of the segment at both ends that may meet its own walls.
     const AT_ENDS: f64 = 1e-6;
     let segment = Curve::Segment { a: p, b: q };
     let length = segment.length();
@@ -213,10 +211,10 @@ pub(super) fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
     places.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && winding < -std::f64::consts::PI
 }
 
-/// Divides a loop until each part has at most three stretches of wall, or no segment divides it any more. Segments are numbered from
-/// `segments` on, which counts them.
+/// Divides a loop until each part has at most three stretches of wall or no dividing segment is left. Segments are numbered from
+/// `segments` on, which is advanced.
 pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
-    // Where the seam lies is nobody's choice, and segments must not depend on it.
+    // The position of the seam is arbitrary, and segments must not depend on it.
     if whole.has_seam {
         return vec![whole];
     }
@@ -257,14 +255,14 @@ fn project(wall: &[WallPiece], x: Vec2) -> Option<WallPoint> {
     found.map(|(piece, closest)| WallPoint::of(piece, closest))
 }
 
-/// How many of two points are ends of their pieces.
+/// Number of points, of two, that are ends of their pieces.
 fn ends(one: &WallPoint, other: &WallPoint) -> usize {
     [one, other].into_iter().filter(|it| it.u == 0.0 || it.u == 1.0).count()
 }
 
 /// The closest points of two stretches of wall.
 fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
-    // Up to so many pairs of pieces are all tried.
+    // Number of pairs of pieces up to which all are tried.
     const FEW: usize = 256;
     if one.len() * other.len() > FEW {
         return closest_of_many(one, other);
@@ -275,7 +273,7 @@ fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, 
             let [p, q] = closest(&a.curve, &b.curve);
             let distance = (p.point - q.point).norm();
             let found = (distance, WallPoint::of(i, p), WallPoint::of(j, q));
-            // A corner is an end of two pieces; where one of them runs level with the other wall, the middle of both counts.
+            // A corner is the end of two pieces; if one of them is parallel to the other wall, the middle of both counts.
             let is_closer = |best: (f64, WallPoint, WallPoint)| {
                 let rounding = SAME_LENGTH * distance;
                 distance < best.0 - rounding
@@ -289,7 +287,7 @@ fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, 
     best.map(|(_, p, q)| (p, q))
 }
 
-/// The closest points of two stretches of many pieces: from samples, then back and forth until they rest.
+/// The closest points of two stretches of many pieces: from samples, then by alternating projection until convergence.
 fn closest_of_many(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
     const SAMPLES: usize = 16;
     const MOST_STEPS: usize = 60;
@@ -322,8 +320,8 @@ fn closest_of_many(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint,
     Some((p, q))
 }
 
-/// Whether the wall turns away from the pore by more than rounding where two pieces of it meet (a concave corner of the pore's wall turns
-/// towards it): the sine of the turn, above 0 to the left.
+/// Whether the wall turns away from the pore by more than rounding where two of its pieces meet (a concave corner of the wall turns
+/// towards the pore), by the sine of the turning angle, positive to the left.
 pub(super) fn turn(one: &Curve, next: &Curve) -> f64 {
     let (t, s) = (one.tangent(1.0), next.tangent(0.0));
     cross(t, s).atan2(t.dot(&s))

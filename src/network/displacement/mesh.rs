@@ -1,8 +1,8 @@
-//! Elements and gates: what displacement fills, and through what.
+//! Elements, the units of filling, and gates between them.
 //!
-//! Where touch and overlap act, an element is a part of a pore region between at most three walls where such a division exists
-//! (`loops`), and each throat and each dividing segment is a gate. Where bursts alone act, an element is a pore of the network with its
-//! merged regions, and only the throats that are left are gates.
+//! With touches and overlaps, an element is a part of a pore region between at most three walls if such a division exists (`loops`), and
+//! each throat and each dividing segment is a gate. With bursts alone, an element is a pore of the network with its merged regions, and
+//! only the remaining throats are gates.
 
 use super::dead_ends::cut_dead_ends;
 use super::loops::{Crossing, GateId, Loop, divide};
@@ -25,16 +25,15 @@ pub(super) struct Element {
 pub(super) struct Gate {
     /// On each side the loop and the number of the crossing in it.
     pub(crate) places: [(usize, usize); 2],
-    /// What is added to a position in the frame of the first loop to get that in the frame of the second, in m.
+    /// Shift in m from the frame of the first loop to that of the second.
     pub(crate) shift: Vec2,
-    /// The throat, where it is one.
+    /// The throat, if it is one.
     pub(crate) throat: Option<usize>,
 }
 
 /// All elements and gates.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Mesh {
-    /// The loops.
     pub(crate) loops: Vec<Loop>,
     /// The region of each loop.
     pub(crate) region_of: Vec<usize>,
@@ -42,14 +41,12 @@ pub(super) struct Mesh {
     pub(crate) area: Vec<f64>,
     /// The element of each loop.
     pub(crate) element_of: Vec<usize>,
-    /// The gate of each crossing of each loop with the end that lies there; none at openings and at dissolved throats.
+    /// The gate of each crossing of each loop, with the end that lies there; `None` at openings and dissolved throats.
     pub(crate) gate_at: Vec<Vec<Option<(usize, usize)>>>,
-    /// For each crossing of each loop: the loop and the crossing on its other side, and what is added to a position in the frame of this
-    /// loop to get that in the frame of the other one, in m; none at openings.
+    /// For each crossing of each loop: the loop and the crossing on its other side, and the shift in m from the frame of this loop to that of
+    /// the other one; `None` at openings.
     pub(crate) twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
-    /// The elements.
     pub(crate) elements: Vec<Element>,
-    /// The gates.
     pub(crate) gates: Vec<Gate>,
 }
 
@@ -57,7 +54,7 @@ pub(super) struct Mesh {
 pub(super) fn loop_of(region: &Region) -> Loop {
     let mut found = Loop { has_seam: true, ..Loop::default() };
     let mut wall = Vec::new();
-    // Beginning after a crossing, so that no stretch of wall is split where the list of edges begins.
+    // Start after a crossing, so that no stretch of wall is split at the start of the list of edges.
     let first = region.edges.iter().position(|edge| !matches!(edge, Edge::Wall(_))).map_or(0, |k| k + 1);
     for k in 0..region.edges.len() {
         let crossing = match &region.edges[(first + k) % region.edges.len()] {
@@ -73,7 +70,7 @@ pub(super) fn loop_of(region: &Region) -> Loop {
         found.walls.push(std::mem::take(&mut wall));
         found.crossings.push(crossing);
     }
-    // A whole side that no wall meets is no part of the way along the walls, which goes around a periodic domain.
+    // A whole side without walls is not part of the path along the walls, which goes around a periodic domain.
     let apart: Vec<bool> = (0..found.crossings.len()).map(|k| misses_walls(&found, k)).collect();
     for k in (0..found.crossings.len()).rev() {
         if apart[k] && found.crossings.len() > 1 {
@@ -92,12 +89,12 @@ pub(super) fn loop_of(region: &Region) -> Loop {
     found
 }
 
-/// Whether a crossing is an opening, or follows others that are, along sides that no wall meets.
+/// Whether a crossing is an opening, or follows others that are, along sides without walls.
 fn misses_walls(part: &Loop, k: usize) -> bool {
     let is_opening = |k: usize| matches!(part.crossings[k].gate, GateId::Opening(_));
     let count = part.crossings.len();
     let mut first = k;
-    // Openings that follow each other begin where the wall before them ends.
+    // Consecutive openings begin at the end of the wall before them.
     while is_opening(first) {
         if part.wall_before(first) != Vec2::zeros() || part.wall_after(first) != Vec2::zeros() {
             return true;
@@ -111,7 +108,7 @@ fn misses_walls(part: &Loop, k: usize) -> bool {
 }
 
 impl Mesh {
-    /// Elements between at most three walls, where segments divide the regions so; each dead end is one of its own.
+    /// Elements between at most three walls, as far as segments divide the regions; each dead end is an element of its own.
     pub(crate) fn divided(network: &Network) -> Self {
         let (mut mesh, mut segments) = (Self::default(), 0);
         for (index, region) in network.regions.iter().enumerate() {
@@ -145,7 +142,7 @@ impl Mesh {
         mesh.joined(network, 0, &|throat| is_left[throat])
     }
 
-    /// Finds both sides of each gate.
+    /// Sets both sides of each gate.
     fn joined(mut self, network: &Network, segments: usize, is_gate: &dyn Fn(usize) -> bool) -> Self {
         let throats = network.throats.len();
         let mut places = vec![[None; 2]; throats + segments];
@@ -194,7 +191,7 @@ impl Mesh {
         self.element_of[self.gates[gate].places[end].0]
     }
 
-    /// The elements beside an element, one for each of its gates that is not closed and leads to another one.
+    /// The neighbors of an element, one for each of its gates that is not closed and leads to another element.
     pub(crate) fn neighbors<'a>(&'a self, closed: &'a [bool], element: usize) -> impl Iterator<Item = usize> + 'a {
         let gates = self.elements[element].gates.iter().filter(|&&(gate, _)| !closed[gate]);
         gates.map(|&(gate, end)| self.element(gate, 1 - end)).filter(move |&other| other != element)

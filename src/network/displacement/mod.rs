@@ -1,15 +1,15 @@
-//! Quasi-static displacement of one fluid by another: which part of the pore space is filled at which pressure.
+//! Quasi-static displacement of one phase by another at rising applied pressure: the elements filled by each event.
 //!
-//! The applied pressure rises. Each meniscus advances through its gate until one of three events \[CieplakRobbins1988;
-//! CieplakRobbins1990\]: it passes the place of largest curvature (burst), it touches a wall ahead (touch), or it meets the meniscus
-//! in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first. Events of equal curvature take
-//! place at once: all of them fill before it is known what they trap and what follows. An event fills the whole element ahead. Two menisci that meet become one between the outer walls of both: within
-//! one element they fill it; where several lie in between, a grain stands ahead, and the joined meniscus fills all of them once it
-//! bursts or touches. Pressures are curvatures here: times the tension they are p_invading − p_defending.
+//! A meniscus advances through its gate until one of three events \[CieplakRobbins1988; CieplakRobbins1990\]: it passes its largest
+//! curvature (burst), touches a wall ahead (touch), or meets the meniscus in the neighboring gate on the wall between them (overlap). The
+//! event of the lowest curvature comes first. Events of equal curvature are simultaneous: all fill before trapping and new menisci are
+//! determined. An event fills the whole element ahead. Two menisci that meet merge into one between their outer walls: within one element
+//! they fill it; if a grain ahead separates several elements, the merged meniscus fills all of them when it bursts or touches. Pressures
+//! are given as curvatures, (p_invading − p_defending)/σ.
 //!
-//! Films in the corners of a chip let the wetting phase out and in, and close throats where they meet (`snap_off`).
+//! Corner films of a chip let the wetting phase out and in, and close throats when they meet (`snap_off`).
 //!
-//! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one.
+//! Left out: areas swept by menisci between events, overlaps of a merged meniscus with a third one.
 
 mod conditions;
 mod dead_ends;

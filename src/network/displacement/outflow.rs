@@ -1,22 +1,22 @@
-//! Which elements of the defending phase can still flow out: a forest of paths to the outlets, mended after each event.
+//! Connectivity of the defending phase to the outlets: a forest of paths, repaired after each event.
 //!
-//! Every element that can flow out knows the next one on its way. Where an element is lost, those whose way led through it look for
-//! another way; what finds none is trapped. Only they are visited, so that an event costs as much as it cuts off or redirects.
+//! Every connected element stores the next one on its path. When an element is lost, those whose path led through it search another path;
+//! those without one are trapped. Only they are visited, so the cost of an event is proportional to what it cuts off or redirects.
 //!
-//! An element that is open at an outlet lets both phases out: the invading one leaves through it without closing it. Otherwise the first
-//! finger that reached a manifold along a whole side would trap all that is left behind.
+//! An element open at an outlet lets both phases out: the invading phase leaves through it without closing it. Otherwise the first finger
+//! to reach a manifold along a whole side would trap all remaining defending phase.
 
 use super::mesh::Mesh;
 
-/// Ways of the defending phase to the outlets.
+/// Paths of the defending phase to the outlets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Outflow {
-    /// The next element on the way; an outlet element leads to itself. None: no way.
+    /// The next element on the path; an outlet element leads to itself. `None` without a path.
     next: Vec<Option<usize>>,
 }
 
 impl Outflow {
-    /// Ways to the elements marked as outlets, whatever they hold, through the elements marked as defending.
+    /// Paths to the elements marked as outlets, whatever phase they hold, through the elements marked as defending.
     pub(crate) fn new(mesh: &Mesh, closed: &[bool], defends: &[bool], is_outlet: &[bool]) -> Self {
         let mut next = vec![None; defends.len()];
         let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| is_outlet[e]).collect();
@@ -34,12 +34,12 @@ impl Outflow {
         Self { next }
     }
 
-    /// Whether the element has a way out.
+    /// Whether the element has a path to an outlet.
     pub(crate) fn is_open(&self, element: usize) -> bool {
         self.next[element].is_some()
     }
 
-    /// Takes an element out, and returns those that have lost their way for good.
+    /// Removes an element, and returns those that have no path any more.
     pub(crate) fn remove(&mut self, mesh: &Mesh, closed: &[bool], element: usize) -> Vec<usize> {
         if self.next[element] == Some(element) {
             return Vec::new();
@@ -49,7 +49,7 @@ impl Outflow {
         self.mend(mesh, closed, lost)
     }
 
-    /// Takes a gate between two elements out, which is closed already, and returns those that have lost their way for good.
+    /// Removes a gate between two elements, which is closed already, and returns those that have no path any more.
     pub(crate) fn close(&mut self, mesh: &Mesh, closed: &[bool], [one, other]: [usize; 2]) -> Vec<usize> {
         if mesh.neighbors(closed, one).any(|beside| beside == other) {
             return Vec::new();
@@ -60,7 +60,7 @@ impl Outflow {
         self.mend(mesh, closed, vec![from])
     }
 
-    /// Takes the way from all beside an element whose way leads through it.
+    /// Clears the path of all neighbors of an element whose path leads through it.
     fn cut_from(&mut self, mesh: &Mesh, closed: &[bool], element: usize) -> Vec<usize> {
         let mut lost = Vec::new();
         for other in mesh.neighbors(closed, element) {
@@ -72,7 +72,7 @@ impl Outflow {
         lost
     }
 
-    /// Finds new ways for elements that have lost theirs and for all whose way led through them; returns those that have none.
+    /// Finds new paths for elements that have lost theirs and for all whose path led through them; returns those without one.
     fn mend(&mut self, mesh: &Mesh, closed: &[bool], mut lost: Vec<usize>) -> Vec<usize> {
         // The nearest first.
         let mut at = 0;
@@ -80,7 +80,7 @@ impl Outflow {
             at += 1;
             lost.extend(self.cut_from(mesh, closed, cut));
         }
-        // New ways begin where one of them lies beside an element that has a way, and spread among the others.
+        // New paths start from elements beside connected ones, and spread among the others.
         let mut queue = Vec::new();
         for &cut in &lost {
             if let Some(way) = mesh.neighbors(closed, cut).find(|&other| self.next[other].is_some()) {

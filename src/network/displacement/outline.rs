@@ -1,7 +1,7 @@
 //! Loops as polygons, for pictures: arcs as chords of a few degrees.
 //!
-//! The boundary of a region that goes around a periodic domain has two parts without common points, each a period long. The polygon is cut
-//! open between them at the shortest way from a vertex of one to the other, which meets nothing else.
+//! The boundary of a region around a periodic domain has two disjoint parts, each a period long. The polygon is cut open between them along
+//! the shortest segment from a vertex of one to the other, which meets nothing else.
 
 use super::loops::Loop;
 use crate::geometry::curve::Curve;
@@ -43,7 +43,7 @@ fn chains(part: &Loop) -> Vec<Vec<Vec2>> {
     let length: f64 = curves.iter().map(Curve::length).sum();
     let follows = |one: &Curve, next: &Curve| (next.point(0.0) - one.point(1.0)).norm() <= 1e-9 * length;
     let count = curves.len();
-    // Beginning after a gap, so that no chain is split where the list begins.
+    // Start after a gap, so that no chain is split at the start of the list.
     let first = (0..count).find(|&k| !follows(&curves[(k + count - 1) % count], &curves[k])).unwrap_or(0);
     curves.rotate_left(first);
     let mut found: Vec<Vec<Vec2>> = Vec::new();
@@ -59,7 +59,7 @@ fn chains(part: &Loop) -> Vec<Vec<Vec2>> {
 
 /// The polygon between two chains that go around the domain in opposite directions.
 fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
-    // So many pairs of vertices and edges are tried.
+    // Maximum number of pairs of vertices and edges tried.
     const MOST_PAIRS: usize = 1 << 22;
     let period = one.last()? - one.first()?;
     let back = other.last()? - other.first()?;
@@ -88,7 +88,7 @@ fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
     polygon.extend(other[j + 1..].iter().map(|point| point + by + period));
     polygon.extend(other[1..=j].iter().map(|point| point + by));
     polygon.push(closest);
-    // Where the other chain is: a side lies in the domain.
+    // Shift back to the position of the other chain: an open side lies in the domain.
     polygon.iter_mut().for_each(|point| *point -= by);
     Some(polygon)
 }
@@ -123,7 +123,7 @@ mod tests {
         // The pore lies on the right of its boundary. The mean of x along the wall: trapezoids of the three pieces.
         let exact = 0.2 * 1.75 + 0.3 * 2.0 + 0.5 * 2.25;
         assert!((area(&polygon) + exact).abs() < 1e-12, "{polygon:?}");
-        // Cut open at the place of the wall next to the side.
+        // Cut open at the point of the wall next to the side.
         assert!(polygon.iter().filter(|point| (point.x - 1.5).abs() < 1e-12).count() == 2, "{polygon:?}");
     }
 }

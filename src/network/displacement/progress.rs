@@ -1,4 +1,4 @@
-//! A displacement in progress: what each phase holds, where menisci wait, and what follows where an element is filled.
+//! A displacement in progress: phases of elements, menisci in gates, and the consequences of filling an element.
 
 use std::collections::{BinaryHeap, VecDeque};
 use std::sync::Arc;
@@ -17,9 +17,9 @@ use crate::network::graph::{Network, Pores, WallPiece};
 /// The phases of a displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// The one that is displaced.
+    /// The displaced phase.
     Defending,
-    /// The one that comes in.
+    /// The invading phase.
     Invading,
 }
 
@@ -34,10 +34,10 @@ pub struct Element {
     pub outline: Vec<Vec2>,
 }
 
-/// A meniscus that waits in a gate, entering the element on one side of it.
+/// A meniscus in a gate, facing the element on one side of it.
 #[derive(Debug, Clone)]
 pub(super) struct Front {
-    /// Where it can stand.
+    /// The walls along which it moves.
     pub(crate) passage: Passage,
     /// Curvature of its own event in 1/m.
     pub(crate) own: f64,
@@ -52,15 +52,15 @@ pub struct Displacement {
     pub(super) conditions: Conditions,
     pub(super) invaded: Vec<bool>,
     pub(super) connection: Connection,
-    /// Applied curvature in 1/m when an element was trapped, or when the half cycle before ended; NaN where there was none.
+    /// Applied curvature in 1/m when an element was trapped, or at the end of the previous half cycle; NaN if there was none.
     pub(super) held: Vec<f64>,
     pub(super) fronts: Vec<[Option<Front>; 2]>,
     pub(super) queue: BinaryHeap<Candidate>,
-    /// Events of the same curvature as the last one that are still to come.
+    /// Remaining events of the same curvature as the last one.
     pub(super) tied: VecDeque<Candidate>,
     /// Elements that events of this curvature have filled.
     filled: Vec<usize>,
-    /// By gate: whether films have closed it to the non-wetting phase on both sides of it.
+    /// By gate: whether films have closed it between non-wetting phase on both sides.
     pub(super) closed: Vec<bool>,
     /// Gates that events of this curvature have closed, and opened again.
     pub(super) closing: Vec<usize>,
@@ -70,7 +70,7 @@ pub struct Displacement {
     has_reached_outlet: bool,
 }
 
-/// The pore space as events fill it, whatever the angles are.
+/// The division of the pore space into elements, independent of contact angles.
 #[derive(Debug, Clone)]
 pub(crate) struct Division {
     mesh: Arc<Mesh>,
@@ -79,7 +79,7 @@ pub(crate) struct Division {
 }
 
 impl Division {
-    /// That of a network for these events.
+    /// The division of a network for these types of events.
     pub(crate) fn of(network: &Network, pores: &Pores, events: Events) -> Self {
         let mesh = match events {
             Events::All => Mesh::divided(network),
@@ -94,24 +94,24 @@ impl Division {
 }
 
 impl Displacement {
-    /// The pore space full of the defending phase, except the elements that are open at an inlet: openings hold nothing back.
+    /// The pore space full of the defending phase, except elements open at an inlet: openings have no entry pressure.
     pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
         Self::within(&Division::of(network, pores, conditions.events), conditions)
     }
 
-    /// The same in a pore space that is divided for these events.
+    /// The same in a pore space already divided for these events.
     pub(crate) fn within(division: &Division, conditions: Conditions) -> Self {
         let Division { mesh, elements, centers } = division.clone();
         let (invaded, closed) = (vec![false; mesh.elements.len()], vec![false; mesh.gates.len()]);
         Self::begun((mesh, elements, centers), conditions, invaded, closed)
     }
 
-    /// The other phase invades from the state that is left. What it holds and is not connected to an inlet takes no part until it is
-    /// reached, or, without trapping, takes part from the start.
+    /// The other phase invades from the present state. Its elements without a connection to an inlet take no part until they are reached, or,
+    /// without trapping, take part from the start.
     pub fn reverse(self, conditions: Conditions) -> Self {
         let invaded = self.invaded.iter().map(|invaded| !invaded).collect();
         let conditions = Conditions { events: self.conditions.events, ..conditions };
-        // What bulged into the defending phase is seen from the other side now.
+        // The sign of curvatures reverses with the phases.
         let last = if self.applied.is_finite() { -self.applied } else { f64::NAN };
         let held =
             self.connection.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
@@ -171,7 +171,7 @@ impl Displacement {
         self.filled.extend_from_slice(elements);
     }
 
-    /// What follows from all that events of one curvature have done: what is trapped now, and where menisci wait next.
+    /// Consequences of all events of one curvature: trapping and new menisci.
     pub(super) fn settle(&mut self, mesh: &Mesh) {
         let (elements, opened) = (std::mem::take(&mut self.filled), std::mem::take(&mut self.opened));
         let mut closing = std::mem::take(&mut self.closing);
@@ -212,7 +212,7 @@ impl Displacement {
         }
     }
 
-    /// Lets menisci advance from an element into those beside it that defend and can flow out.
+    /// Places menisci towards the neighbors of an element that hold the defending phase and are connected to an outlet.
     fn advance_from(&mut self, mesh: &Mesh, element: usize) {
         for &(gate, end) in &mesh.elements[element].gates {
             let (to, target) = (1 - end, mesh.element(gate, 1 - end));
@@ -224,7 +224,7 @@ impl Displacement {
         }
     }
 
-    /// Which events there are.
+    /// The types of events.
     pub(crate) fn events(&self) -> Events {
         self.conditions.events
     }
@@ -234,7 +234,7 @@ impl Displacement {
         &self.elements
     }
 
-    /// The phase that an element holds.
+    /// The phase in an element.
     pub fn phase(&self, element: usize) -> Phase {
         if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
     }
@@ -245,12 +245,12 @@ impl Displacement {
         (0..4).any(|side| open[side] && (self.conditions.inlet[side] || self.conditions.outlet[side]))
     }
 
-    /// Whether an element holds the defending phase and cannot let it go.
+    /// Whether an element holds trapped defending phase.
     pub fn is_trapped(&self, element: usize) -> bool {
         self.connection.trapped[self.mesh.element_of[element]]
     }
 
-    /// Whether what an element holds of its phase follows the applied pressure no more: it is trapped, or invades and is not joined to the inlet.
+    /// Whether the phase in an element no longer follows the applied pressure: trapped, or invading and not connected to the inlet.
     pub(crate) fn is_cut_off(&self, element: usize) -> bool {
         let element = self.mesh.element_of[element];
         self.connection.trapped[element] || (self.invaded[element] && !self.connection.is_joined(element))
@@ -261,12 +261,12 @@ impl Displacement {
         self.mesh.loops[element].walls.iter().flatten()
     }
 
-    /// Applies a curvature in 1/m at which no event comes.
+    /// Applies a curvature in 1/m below that of the next event.
     pub(crate) fn apply(&mut self, curvature: f64) {
         self.applied = self.applied.max(curvature);
     }
 
-    /// Whether the invading phase, joined to the inlet, has come to an outlet.
+    /// Whether the invading phase, connected to the inlet, has reached an outlet.
     pub fn reached_outlet(&self) -> bool {
         self.has_reached_outlet
     }
@@ -279,14 +279,14 @@ impl Displacement {
     }
 
     /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that
-    /// region; none where the throat is no gate.
+    /// region; `None` if the throat is not a gate.
     pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
         let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
         Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
     }
 
-    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, under other conditions; NaN for throats that
-    /// are no gates.
+    /// Curvature in 1/m at which menisci burst through each throat, the larger of both directions, under other conditions; NaN for throats that
+    /// are not gates.
     pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
         let mut found = vec![f64::NAN; throats];
         for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {

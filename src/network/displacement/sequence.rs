@@ -1,4 +1,4 @@
-//! The order of events: that of the lowest curvature first, events of equal curvature at once.
+//! The order of events: by rising curvature, events of equal curvature simultaneously.
 
 use super::event::{Candidate, EventKind};
 use super::involved::Involved;
@@ -8,9 +8,9 @@ use super::progress::Displacement;
 /// One event.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Event {
-    /// What happened.
+    /// Type of the event.
     pub kind: EventKind,
-    /// The throat through which elements were filled, or which films closed; none for a segment within a region.
+    /// The throat through which elements were filled, or which films closed; `None` for a segment within a region.
     pub throat: Option<usize>,
     /// The elements that were filled.
     pub elements: Vec<usize>,
@@ -23,7 +23,7 @@ pub struct Event {
 }
 
 impl Displacement {
-    /// The next event that takes place, the elements that it fills and its menisci; none among those of the last curvature where `only_tied`.
+    /// The next valid event, the elements that it fills and its menisci; with `only_tied`, `None` if none of the last curvature is left.
     fn next_candidate(&mut self, mesh: &Mesh, only_tied: bool) -> Option<(Candidate, Vec<usize>, Involved)> {
         loop {
             if self.tied.is_empty() {
@@ -47,7 +47,7 @@ impl Displacement {
                 let ahead = (kind != EventKind::Reconnection).then(|| mesh.element(gate, to));
                 return Some((candidate, ahead.into_iter().collect(), Involved::alone((gate, to))));
             };
-            // Another meniscus may have come in between.
+            // Another meniscus may have formed in between.
             let neighbor = self.neighbor(mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front);
             let Some(neighbor) = neighbor else { continue };
             let waits_until = if candidate.is_joined {
@@ -64,9 +64,9 @@ impl Displacement {
         }
     }
 
-    /// Takes the events of the lowest curvature that is left out of the queue.
+    /// Moves the events of the lowest curvature out of the queue.
     fn tie(&mut self) -> Option<()> {
-        // Share of a curvature, or of that of a half circle in the gate, that is rounding.
+        // Rounding error relative to the curvature, or to that of a half circle in the gate.
         const ROUNDING: f64 = 1e-9;
         let is_allowed = |next: &&Candidate| next.curvature <= self.conditions.largest_curvature;
         let &Candidate { curvature: lowest, gate, .. } = self.queue.peek().filter(is_allowed)?;
@@ -81,7 +81,7 @@ impl Displacement {
     }
 }
 
-/// The next event, which is done; none where no meniscus can move any more.
+/// Performs the next event and returns it; `None` if no meniscus can move any more.
 impl Iterator for Displacement {
     type Item = Event;
 

@@ -1,9 +1,9 @@
-//! Throats that films close: where those in the corners of a throat meet, the wetting phase fills it.
+//! Snap-off: when the corner films of a throat meet, the wetting phase fills the throat.
 //!
-//! A throat has no volume here. It is closed to the non-wetting phase, and menisci stand on both sides of it, from which the wetting phase goes
-//! on into the elements beside it by the events of any meniscus. In the next drainage it opens again where a meniscus passes it at its entry pressure.
+//! A throat has no volume here. It is closed to the non-wetting phase, with menisci on both sides, from which the wetting phase enters the
+//! adjacent elements by the usual events. In the next drainage it opens again when a meniscus passes it at its entry pressure.
 //!
-//! Left out: that the menisci on both sides of a closed throat may touch each other before.
+//! Left out: contact between the menisci on both sides of a closed throat.
 
 use super::conditions::CornerFilms;
 use super::event::{Candidate, EventKind};
@@ -13,7 +13,7 @@ use super::trapping::Held;
 use crate::math::Vec2;
 
 impl Displacement {
-    /// The curvatures in 1/m at which films meet in the throats, for all throats that are gates.
+    /// Queues snap-off at the curvature in 1/m at which films meet, for all throats that are gates.
     pub(super) fn await_films(&mut self, mesh: &Mesh) {
         let CornerFilms::Join { meeting } = &self.conditions.films else { return };
         for (gate, throat) in mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
@@ -25,7 +25,7 @@ impl Displacement {
         }
     }
 
-    /// Whether the non-wetting phase, where it defends, goes through a gate, and can leave.
+    /// Whether a gate can snap off: defending non-wetting phase on both sides, connected to an outlet.
     pub(super) fn can_close(&self, mesh: &Mesh, gate: usize) -> bool {
         let is_open = |end| {
             let element = mesh.element(gate, end);
@@ -34,7 +34,7 @@ impl Displacement {
         !self.closed[gate] && is_open(0) && is_open(1)
     }
 
-    /// Takes from closed gates those that no longer lie between parts of the non-wetting phase.
+    /// Removes from closed gates those without non-wetting phase on both sides.
     pub(super) fn closed_within(mesh: &Mesh, closed: &mut [bool], invaded: &[bool], films: &CornerFilms) {
         let invades = *films == CornerFilms::Drain;
         for (gate, closed) in closed.iter_mut().enumerate() {
@@ -42,20 +42,20 @@ impl Displacement {
         }
     }
 
-    /// Films meet in a gate.
+    /// Closes a gate in which films meet.
     pub(super) fn close(&mut self, gate: usize) {
         self.closed[gate] = true;
         self.closing.push(gate);
     }
 
-    /// The invading phase passes a closed gate.
+    /// Opens a closed gate that the invading phase passes.
     pub(super) fn reopen(&mut self, gate: usize) {
         self.closed[gate] = false;
         self.fronts[gate] = [None, None];
         self.opened.push(gate);
     }
 
-    /// Lets menisci wait on both sides of a closed gate.
+    /// Places menisci on both sides of a closed gate.
     pub(super) fn advance_from_closed(&mut self, mesh: &Mesh, gate: usize) {
         for to in 0..2 {
             let target = mesh.element(gate, to);
@@ -65,7 +65,7 @@ impl Displacement {
         }
     }
 
-    /// Lets a meniscus wait for its way through a closed gate, behind which its own phase stands.
+    /// Places a meniscus in a closed gate with its own phase on the other side, to reconnect both.
     pub(super) fn await_reconnection(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, _) = self.passage_at(&self.conditions.angle, mesh, (gate, to), Vec2::zeros());
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
@@ -75,7 +75,7 @@ impl Displacement {
         self.fronts[gate][to] = Some(Front { passage, own });
     }
 
-    /// What follows where gates were closed: what is trapped now.
+    /// Trapping after gates were closed.
     pub(super) fn lose_through(&mut self, mesh: &Mesh, gates: &[usize]) {
         for &gate in gates {
             let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };

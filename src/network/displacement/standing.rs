@@ -1,11 +1,11 @@
-//! Where menisci stand now, as exact arcs, and the boundary of the invading phase along walls and menisci.
+//! Menisci at rest as exact arcs, and the boundary of the invading phase along walls and menisci.
 //!
-//! All menisci that wait stand at one curvature: the applied one, or that of the next event where it comes at a lower one. In the middle of an avalanche the
-//! pressure falls so far where the area is given and not the pressure. Around what is trapped menisci keep the curvature at which it was cut off, or the lowest at which one of
-//! them would go on: its area does not change. Two menisci that have met on a grain stand as one, between the outer walls of both.
+//! All connected menisci have one curvature: the applied one, or that of the next event if it is lower, to which the pressure falls during
+//! an avalanche at given area. Menisci around trapped ganglia keep the curvature at which these were cut off, or the lowest at which one of
+//! them would advance, since their area is constant. Two menisci that have met on a grain are merged, between the outer walls of both.
 //!
-//! Left out: menisci of different pressures around one cluster that was cut off in several parts; the angles at which menisci of an earlier half cycle
-//! stand, where walls have hysteresis. Where arcs would cross each other, the chords of their gates stand for them.
+//! Left out: menisci of different pressures around one ganglion that was cut off in several parts; contact angles of menisci from an earlier
+//! half cycle on walls with hysteresis. Arcs that would cross are replaced by the chords of their gates.
 
 use std::f64::consts::PI;
 
@@ -28,32 +28,31 @@ pub(crate) struct Standing {
     pub(crate) between: [usize; 2],
     /// From the left wall to the right one in m, the defending phase on its left.
     pub(crate) curve: Curve,
-    /// Curvature in 1/m, above 0 where it bulges into the defending phase; none where the chord of the gate stands for the meniscus.
+    /// Curvature in 1/m, positive if it bulges into the defending phase; `None` if the chord of the gate replaces the meniscus.
     pub(crate) curvature: Option<f64>,
     /// Signed angle between the chord of both contacts and the interface in rad.
     pub(crate) bend: f64,
-    /// Area in m² between the chord of the gate and the interface; none where two menisci have become one.
+    /// Area in m² between the chord of the gate and the interface; `None` for a merged meniscus.
     pub(crate) swept: Option<f64>,
-    /// Length of wall from the gate to the left and the right contact in m, where each has a gate of its own.
+    /// Length of wall in m from the gate to the left and the right contact, each from its own gate.
     pub(crate) advances: [f64; 2],
-    /// Its gate, or both where two menisci have become one, with the ends at which they enter.
+    /// Its gate, or both gates of a merged meniscus, with the ends at which they enter.
     gates: Vec<(usize, usize)>,
 }
 
-/// All interfaces, and what the invading phase is bounded by.
+/// All interfaces, and the boundary of the invading phase.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Interfaces {
-    /// The interfaces.
     pub(crate) menisci: Vec<Standing>,
     /// The boundary of the invading phase in m, the phase on its left: along walls, then along menisci.
     pub(crate) outline: Vec<Curve>,
-    /// For each element the curvature in 1/m of the menisci around what is trapped there; NaN where nothing is.
+    /// For each element the curvature in 1/m of the menisci around its trapped phase; NaN if not trapped.
     pub(crate) trapped: Vec<f64>,
-    /// Area of the invading phase in m²; none in a periodic domain where menisci have joined.
+    /// Area of the invading phase in m²; `None` in a periodic domain with merged menisci.
     pub(crate) area: Option<f64>,
 }
 
-/// Two menisci that have met and wait as one.
+/// Two menisci that have met and merged.
 struct Pair {
     /// Their gates with the ends at which they enter.
     gates: [(usize, usize); 2],
@@ -61,21 +60,21 @@ struct Pair {
     passage: Passage,
 }
 
-/// The phases with which a displacement begins.
+/// The initial phases of a displacement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Beginning {
     /// Whether the invading phase holds an element.
     pub(crate) invaded: Vec<bool>,
-    /// The applied curvature in 1/m so far; below all where this half cycle begins with it.
+    /// The applied curvature in 1/m so far; -∞ if the half cycle starts with this state.
     pub(crate) applied: f64,
-    /// Curvature in 1/m at which an element was trapped; NaN where it was not.
+    /// Curvature in 1/m at which an element was trapped; NaN if it was not.
     pub(crate) held: Vec<f64>,
     /// Throats that films have closed.
     pub(crate) closed: Vec<usize>,
 }
 
 impl Displacement {
-    /// A displacement that begins with phases that are known; as [`new`](Self::new), it fills what is open at an inlet.
+    /// A displacement with given initial phases; like [`new`](Self::new), it fills elements open at an inlet.
     pub(crate) fn beginning(network: &Network, pores: &Pores, conditions: Conditions, beginning: &Beginning) -> Self {
         let fresh = Self::new(network, pores, Conditions { inlet: [false; 4], ..conditions.clone() });
         let mut invaded = vec![false; fresh.mesh.elements.len()];
@@ -91,18 +90,18 @@ impl Displacement {
         begun
     }
 
-    /// For each element of the mesh the curvature in 1/m of the menisci around its trapped region: the one at which it was cut off, or the lowest at
-    /// which one of them would go on, since its area is given; NaN where nothing is trapped.
+    /// For each element of the mesh the curvature in 1/m of the menisci around its trapped ganglion: the one at which it was cut off, or the
+    /// lowest at which one of them would advance, since its area is constant; NaN if not trapped.
     fn trapped_curvatures(&self) -> Vec<f64> {
         let mesh = &self.mesh;
         let angles = &self.conditions.angle;
         let mut found = vec![f64::NAN; mesh.elements.len()];
-        let mut is_seen = vec![false; mesh.elements.len()];
+        let mut is_visited = vec![false; mesh.elements.len()];
         for first in (0..mesh.elements.len()).filter(|&element| self.connection.trapped[element]) {
-            if is_seen[first] {
+            if is_visited[first] {
                 continue;
             }
-            is_seen[first] = true;
+            is_visited[first] = true;
             let (mut region, mut next, mut curvature) = (vec![first], 0, f64::INFINITY);
             while let Some(&element) = region.get(next) {
                 next += 1;
@@ -112,7 +111,7 @@ impl Displacement {
                     if self.invaded[beyond] {
                         let (passage, obstacles) = self.passage_at(angles, mesh, (gate, to), Vec2::zeros());
                         curvature = curvature.min(self.own_event(&passage, &obstacles).1);
-                    } else if self.connection.trapped[beyond] && !std::mem::replace(&mut is_seen[beyond], true) {
+                    } else if self.connection.trapped[beyond] && !std::mem::replace(&mut is_visited[beyond], true) {
                         region.push(beyond);
                     }
                 }
@@ -122,7 +121,7 @@ impl Displacement {
         found
     }
 
-    /// The curvature in 1/m at which all menisci that wait can rest: `applied`, or that of the next event where it is lower.
+    /// The curvature in 1/m at which all connected menisci can be at rest: `applied`, or that of the next event if it is lower.
     pub(crate) fn resting_curvature(&self, applied: f64) -> f64 {
         let is_open = |it: &&Candidate| {
             let front = (it.gate, it.to);
@@ -134,7 +133,7 @@ impl Displacement {
         self.queue.iter().filter(is_open).map(|it| it.curvature).fold(applied, f64::min)
     }
 
-    /// All interfaces at a resting curvature (1/m), in a domain that is joined along x and y where `periodic`.
+    /// All interfaces at a resting curvature (1/m), in a domain `periodic` along x and y.
     pub(crate) fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
         let mesh = &self.mesh;
         let trapped = self.trapped_curvatures();
@@ -169,7 +168,7 @@ impl Displacement {
         Interfaces { menisci, outline, trapped, area }
     }
 
-    /// The interfaces in all gates between the phases; `trapped` are the curvatures of what is trapped.
+    /// The interfaces in all gates between the phases; `trapped` are the curvatures of trapped elements.
     fn standing(&self, applied: f64, trapped: &[f64]) -> Vec<Standing> {
         let mesh = &self.mesh;
         let joined = self.joined();
@@ -214,13 +213,13 @@ impl Displacement {
         }]
     }
 
-    /// The chord of a gate in place of a meniscus.
+    /// The chord of a gate as a substitute for its meniscus.
     fn chord(&self, (gate, to): (usize, usize)) -> Standing {
         let sides = self.mesh.gates[gate].places;
         let crossing = self.mesh.loops[sides[to].0].crossings[sides[to].1];
         Standing {
             between: [sides[1 - to].0, sides[to].0],
-            // The wall on the left goes on where the crossing ends.
+            // The wall on the left continues at the end of the crossing.
             curve: Curve::Segment { a: crossing.to, b: crossing.from },
             curvature: None,
             bend: 0.0,
@@ -234,7 +233,7 @@ impl Displacement {
         self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()).0
     }
 
-    /// Pairs of menisci that wait as one.
+    /// Pairs of merged menisci.
     fn joined(&self) -> Vec<Pair> {
         let mut waiting: Vec<_> =
             self.queue.iter().filter(|it| it.is_joined && it.kind == EventKind::Overlap).collect();
@@ -256,7 +255,7 @@ impl Displacement {
         pairs
     }
 
-    /// Area of the invading phase in m²: within its outline (Green), or by elements and what menisci sweep beyond their gates.
+    /// Area of the invading phase in m²: within its outline (Green), or by elements plus areas swept past gates.
     fn invading_area(&self, outline: &[Curve], menisci: &[Standing], periodic: [bool; 2]) -> Option<f64> {
         let mesh = &self.mesh;
         let holds = |index: usize| self.invaded[mesh.element_of[index]];

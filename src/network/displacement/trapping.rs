@@ -1,22 +1,22 @@
-//! What of both phases takes part in a displacement: the one place that knows the rules of trapping.
+//! Connectivity of both phases, by the rules of trapping, which are implemented only here.
 
 use super::conditions::{Conditions, CornerFilms};
 use super::mesh::Mesh;
 use super::outflow::Outflow;
 use crate::case::network::Trapping;
 
-/// What of both phases takes part, by the rule of trapping.
+/// Connectivity of both phases by the trapping rule.
 #[derive(Debug, Clone)]
 pub(super) struct Connection {
-    /// Invading elements that are joined to the inlet.
+    /// Invading elements connected to the inlet.
     joined: Vec<bool>,
-    /// Ways out of the defending phase; none where nothing is trapped.
+    /// Paths of the defending phase to the outlets; `None` if nothing is trapped.
     ways: Option<Outflow>,
-    /// Defending elements that cannot flow out.
+    /// Trapped elements of the defending phase.
     pub(super) trapped: Vec<bool>,
 }
 
-/// What each phase holds, and which gates are closed to the non-wetting one.
+/// Phases of elements, and gates closed to the non-wetting phase.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Held<'a> {
     pub(crate) mesh: &'a Mesh,
@@ -25,8 +25,8 @@ pub(super) struct Held<'a> {
 }
 
 impl Connection {
-    /// The connections at the beginning, with the elements from which menisci advance at first. Where no outlet opens, nothing is trapped. Films in
-    /// corners lead the wetting phase everywhere.
+    /// Initial connectivity, with the elements from which menisci first advance. Without an open outlet nothing is trapped. Corner films connect
+    /// the wetting phase everywhere.
     pub(super) fn begin(conditions: &Conditions, held: Held, opens: [&[bool]; 2]) -> (Self, Vec<usize>) {
         let Held { mesh, invaded, closed } = held;
         let (count, [inlets, outlets]) = (invaded.len(), opens);
@@ -47,7 +47,7 @@ impl Connection {
         (begun, first)
     }
 
-    /// Joins an invading element to the inlet, and returns it with all that is joined by it.
+    /// Connects an invading element to the inlet, and returns it with all elements connected through it.
     pub(super) fn join(&mut self, held: Held, element: usize) -> Vec<usize> {
         let (mut open, mut found) = (vec![element], Vec::new());
         while let Some(element) = open.pop() {
@@ -60,18 +60,18 @@ impl Connection {
         found
     }
 
-    /// Whether an invading element is joined to the inlet.
+    /// Whether an invading element is connected to the inlet.
     pub(super) fn is_joined(&self, element: usize) -> bool {
         self.joined[element]
     }
 
-    /// Takes an element from the defending phase, and returns those that are trapped by it.
+    /// Removes an element from the defending phase, and returns those that this traps.
     pub(super) fn lose(&mut self, held: Held, element: usize) -> Vec<usize> {
         let lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.remove(held.mesh, held.closed, element));
         self.trap(held, lost)
     }
 
-    /// Takes the gate between two elements from the defending phase, and returns those that are trapped by it.
+    /// Closes the gate between two elements to the defending phase, and returns those that this traps.
     pub(super) fn close(&mut self, held: Held, between: [usize; 2]) -> Vec<usize> {
         let lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.close(held.mesh, held.closed, between));
         self.trap(held, lost)

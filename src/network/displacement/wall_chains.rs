@@ -1,14 +1,14 @@
-//! All walls of the pore space as chains of pieces, cut where menisci meet them: which parts of them the invading phase wets.
+//! All walls of the pore space as chains of pieces, cut at menisci: the parts of them in contact with the invading phase.
 //!
-//! Along a wall with the pore on its right, the invading phase lies before the left end of a meniscus and the defending one after it; at a right end
-//! it is the other way round. So left and right ends alternate along each chain, unless arcs cross.
+//! Along a wall with the pore on its right, the invading phase lies before the left end of a meniscus and the defending phase after it; at
+//! a right end the order is reversed. So left and right ends alternate along each chain, unless arcs cross.
 
 use super::mesh::Mesh;
 use crate::geometry::boundary::{Boundary, Piece};
 use crate::geometry::curve::Curve;
 use crate::math::{Bounds, Vec2};
 
-/// A contact farther from all walls than this share of the longer side of the domain is on none.
+/// Largest distance of a contact from its wall, over the longer side of the domain.
 const ON_WALL: f64 = 1e-8;
 
 /// A part of a piece of wall.
@@ -16,9 +16,9 @@ const ON_WALL: f64 = 1e-8;
 pub(super) struct Side {
     /// The piece.
     pub(crate) piece: usize,
-    /// Parameter at which it begins.
+    /// Parameter of its start.
     pub(crate) from: f64,
-    /// Parameter at which it ends.
+    /// Parameter of its end.
     pub(crate) to: f64,
 }
 
@@ -30,19 +30,19 @@ pub(super) struct WallChains {
     is_invaded: Vec<bool>,
     /// The chains, and whether the last piece leads back to the first.
     chains: Vec<(Vec<usize>, bool)>,
-    /// For each piece its chain and its place in it.
-    places: Vec<(usize, usize)>,
-    /// The pieces moved into the domain, to be searched.
+    /// For each piece its chain and its index in it.
+    indices: Vec<(usize, usize)>,
+    /// The pieces moved into the domain, for searching.
     boundary: Boundary,
     bounds: Bounds,
     periodic: [bool; 2],
 }
 
-/// What the invading phase wets.
+/// The walls in contact with the invading phase.
 pub(super) struct Traced {
     /// Parts of walls.
     pub(crate) sides: Vec<Side>,
-    /// Menisci whose ends are in no order, by their index.
+    /// Indices of menisci whose ends do not alternate.
     pub(crate) crossed: Vec<usize>,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Traced {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Contact {
     chain: usize,
-    place: usize,
+    index: usize,
     u: f64,
     is_left: bool,
     meniscus: usize,
@@ -58,7 +58,7 @@ struct Contact {
 }
 
 impl WallChains {
-    /// The walls of all elements; `is_invaded` is told for each loop.
+    /// The walls of all elements; `is_invaded` is given for each loop.
     pub(crate) fn new(mesh: &Mesh, is_invaded: &[bool], bounds: Bounds, periodic: [bool; 2]) -> Self {
         let mut first = Vec::new();
         let (mut curves, mut tags) = (Vec::new(), Vec::new());
@@ -81,9 +81,9 @@ impl WallChains {
             }
         }
         let chains = chains(&next);
-        let mut places = vec![(0, 0); curves.len()];
+        let mut indices = vec![(0, 0); curves.len()];
         for (chain, (pieces, _)) in chains.iter().enumerate() {
-            pieces.iter().enumerate().for_each(|(place, &piece)| places[piece] = (chain, place));
+            pieces.iter().enumerate().for_each(|(index, &piece)| indices[piece] = (chain, index));
         }
         let size = bounds.size();
         let moved = |curve: &Curve| {
@@ -91,7 +91,7 @@ impl WallChains {
             Piece { curve: curve.shifted(wrapped(middle, bounds, periodic) - middle), shape: 0 }
         };
         let boundary = Boundary::new(curves.iter().map(moved).collect(), ON_WALL * size.max());
-        Self { curves, is_invaded: tags, chains, places, boundary, bounds, periodic }
+        Self { curves, is_invaded: tags, chains, indices, boundary, bounds, periodic }
     }
 
     /// Cuts the walls at the left and right ends of menisci, each with its length of wall from its gate.
@@ -102,8 +102,8 @@ impl WallChains {
             for (&(point, advance), is_left) in both.iter().zip([true, false]) {
                 match self.locate(point) {
                     Some((piece, u)) => {
-                        let (chain, place) = self.places[piece];
-                        contacts[chain].push(Contact { chain, place, u, is_left, meniscus, advance });
+                        let (chain, index) = self.indices[piece];
+                        contacts[chain].push(Contact { chain, index, u, is_left, meniscus, advance });
                     }
                     None => crossed.push(meniscus),
                 }
@@ -118,7 +118,7 @@ impl WallChains {
                 continue;
             }
             let wet = self.wet(chain, contacts);
-            // Where all is well, the phase differs from that of the elements between gates and contacts only.
+            // For valid menisci the phase differs from that of the elements only between gates and contacts.
             let allowed: f64 = contacts.iter().map(|contact| contact.advance.abs()).sum();
             let slack = ON_WALL * self.bounds.size().max() * (1 + contacts.len()) as f64;
             if !contacts.is_empty() && self.flipped(chain, &wet) > allowed + slack {
@@ -131,7 +131,7 @@ impl WallChains {
         Traced { sides, crossed }
     }
 
-    /// The piece that a point lies on, and its parameter there.
+    /// The piece on which a point lies, and its parameter there.
     fn locate(&self, x: Vec2) -> Option<(usize, f64)> {
         let (x, size) = (wrapped(x, self.bounds, self.periodic), self.bounds.size());
         let shifts = |axis: usize| if self.periodic[axis] { &[0.0, -1.0, 1.0][..] } else { &[0.0][..] };
@@ -147,10 +147,10 @@ impl WallChains {
         best.filter(|(distance, ..)| *distance <= ON_WALL * size.max()).map(|(_, piece, u)| (piece, u))
     }
 
-    /// Sorts contacts along their chain; those in one place so that left and right ends alternate.
+    /// Sorts contacts along their chain, coincident ones so that left and right ends alternate.
     fn order(&self, contacts: &mut [Contact]) {
-        contacts.sort_by(|a, b| a.place.cmp(&b.place).then(a.u.total_cmp(&b.u)).then(a.meniscus.cmp(&b.meniscus)));
-        let point = |contact: &Contact| self.curves[self.chains[contact.chain].0[contact.place]].point(contact.u);
+        contacts.sort_by(|a, b| a.index.cmp(&b.index).then(a.u.total_cmp(&b.u)).then(a.meniscus.cmp(&b.meniscus)));
+        let point = |contact: &Contact| self.curves[self.chains[contact.chain].0[contact.index]].point(contact.u);
         let same = ON_WALL * self.bounds.size().max();
         for k in 1..contacts.len().saturating_sub(1) {
             let is_tie = (point(&contacts[k]) - point(&contacts[k + 1])).norm() <= same;
@@ -160,7 +160,7 @@ impl WallChains {
         }
     }
 
-    /// The menisci of contacts that follow one of their own kind.
+    /// The menisci of contacts that follow a contact of the same end.
     fn out_of_order(&self, chain: usize, contacts: &[Contact]) -> Vec<usize> {
         let is_closed = self.chains[chain].1;
         let pairs =
@@ -169,19 +169,19 @@ impl WallChains {
         same.flat_map(|(k, next)| [contacts[k].meniscus, contacts[next].meniscus]).collect()
     }
 
-    /// The parts of a chain that the invading phase wets.
+    /// The parts of a chain in contact with the invading phase.
     fn wet(&self, chain: usize, contacts: &[Contact]) -> Vec<Side> {
         let (pieces, is_closed) = &self.chains[chain];
         let end = (pieces.len() - 1, 1.0);
         if contacts.is_empty() {
-            // A grain between menisci that have met stands in the invading phase.
+            // A grain between merged menisci is surrounded by the invading phase.
             let is_wet = pieces.iter().any(|&piece| self.is_invaded[piece]);
             return if is_wet { self.between(chain, (0, 0.0), end) } else { Vec::new() };
         }
         let mut sides = Vec::new();
         let mut from = None;
         for contact in contacts {
-            let here = (contact.place, contact.u);
+            let here = (contact.index, contact.u);
             if contact.is_left {
                 sides.extend(self.between(chain, from.take().unwrap_or((0, 0.0)), here));
             } else {
@@ -189,22 +189,22 @@ impl WallChains {
             }
         }
         sides.extend(from.into_iter().flat_map(|from| self.between(chain, from, end)));
-        // A closed chain that begins within a wet part had its beginning taken with the first left end; one that does not ends dry.
+        // A closed chain that starts within the invading phase had its start included with the first left end; otherwise it ends outside.
         debug_assert!(!is_closed || contacts.len().is_multiple_of(2));
         sides
     }
 
-    /// The pieces of a chain between two places of it.
+    /// The pieces of a chain between two positions on it.
     fn between(&self, chain: usize, (i, u): (usize, f64), (j, v): (usize, f64)) -> Vec<Side> {
-        let ends = |place: usize| (if place == i { u } else { 0.0 }, if place == j { v } else { 1.0 });
-        let side = |place: usize| {
-            let (from, to) = ends(place);
-            Side { piece: self.chains[chain].0[place], from, to }
+        let ends = |index: usize| (if index == i { u } else { 0.0 }, if index == j { v } else { 1.0 });
+        let side = |index: usize| {
+            let (from, to) = ends(index);
+            Side { piece: self.chains[chain].0[index], from, to }
         };
         (i..=j).map(side).filter(|side| side.to > side.from).collect()
     }
 
-    /// Length of a chain in m on which the phase is another one than that of the elements.
+    /// Length of a chain in m on which the phase differs from that of the elements.
     fn flipped(&self, chain: usize, wet: &[Side]) -> f64 {
         let pieces = &self.chains[chain].0;
         let invaded = pieces.iter().filter(|&&piece| self.is_invaded[piece]).map(|&piece| self.curves[piece].length());
@@ -214,7 +214,7 @@ impl WallChains {
     }
 }
 
-/// The stretch of wall that follows one, across the crossing between them; none at an opening.
+/// The stretch of wall that follows one, across the crossing between them; `None` at an opening.
 fn following(mesh: &Mesh, mut index: usize, mut wall: usize) -> Option<(usize, usize)> {
     // Stretches between crossings that share a point are empty.
     for _ in 0..=mesh.loops.len() {
@@ -230,7 +230,7 @@ fn following(mesh: &Mesh, mut index: usize, mut wall: usize) -> Option<(usize, u
     None
 }
 
-/// The pieces in the order in which they follow each other, and whether the last leads back to the first.
+/// The pieces in order, and whether the last leads back to the first.
 fn chains(next: &[Option<usize>]) -> Vec<(Vec<usize>, bool)> {
     let mut has_before = vec![false; next.len()];
     next.iter().flatten().for_each(|&piece| has_before[piece] = true);

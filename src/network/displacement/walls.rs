@@ -1,8 +1,8 @@
 //! The walls along which a meniscus advances through a gate, and the walls ahead that it may touch.
 //!
-//! Behind the gate and ahead of it a contact line can follow the wall up to the next concave corner, where it meets another wall, and up
-//! to the widest place of the pore on a concave arc. Where the next gate leads to a third wall, a convex wall is followed beyond it by up to half a
-//! turn: menisci above 90 degrees burst with contacts far ahead. Where it leads back to the other wall of the same passage, the next throat of
+//! Behind and ahead of the gate a contact line can follow the wall up to the next concave corner, where it meets another wall, and up to the
+//! widest point of the pore on a concave arc. If the next gate leads to a third wall, a convex wall is followed past it by up to half a turn:
+//! menisci above 90 degrees burst with contacts far ahead. If it leads back to the other wall of the same passage, the next throat between
 //! both begins, and the wall ends for this one. Positions are in the frame of the element that the meniscus enters.
 
 use std::f64::consts::PI;
@@ -13,17 +13,17 @@ use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
 
-/// Turns to the right of less than this, in rad, are rounding of a smooth wall.
+/// Rounding error, in rad, of right turns of a smooth wall.
 const SMOOTH: f64 = 1e-6;
 
-/// The walls of a gate, seen in the direction of the advance.
+/// The walls of a gate, oriented by the direction of advance.
 #[derive(Debug, Clone, Default)]
 pub(super) struct GateWalls {
-    /// Pieces on the left from the chord on, as they follow each other behind it and ahead of it; their curves run with the advance.
+    /// Pieces on the left, in order behind and ahead of the chord; their curves are directed with the advance.
     pub(crate) left: Sides,
-    /// Pieces on the right; their curves run against the advance.
+    /// Pieces on the right; their curves are directed against the advance.
     pub(crate) right: Sides,
-    /// All other walls of the element that is entered.
+    /// All other walls of the element ahead.
     pub(crate) ahead: Vec<WallPiece>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Sides {
     pub(crate) ahead: Vec<WallPiece>,
 }
 
-/// Part of a stretch of wall that is followed from one of its ends, in the order of following, and what is left of it.
+/// Part of a stretch of wall followed from one of its ends, in this order, and the rest of it.
 struct Followed {
     parts: Vec<WallPiece>,
     rest: Vec<WallPiece>,
@@ -52,7 +52,7 @@ pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) 
     let ahead = ends(mesh, (into, slot), centers[mesh.region_of[into]]);
     let behind = ends(mesh, (out_of, old_slot), centers[mesh.region_of[out_of]]);
     let moved = |parts: Vec<WallPiece>| parts.into_iter().map(|part| shifted(part, shift)).collect::<Vec<_>>();
-    // The wall that leads to the chord on one side goes on after the chord on the other one.
+    // The wall that leads to the chord on one side continues after the chord on the other side.
     let left = Sides { behind: moved(behind.before.parts), ahead: ahead.after.parts };
     let right = Sides { behind: moved(behind.after.parts), ahead: ahead.before.parts };
     let mut others = ahead.others;
@@ -60,8 +60,8 @@ pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) 
     others.extend(ahead.after.rest);
     let own: Vec<Curve> =
         [&left, &right].into_iter().flat_map(|s| s.behind.iter().chain(&s.ahead)).map(|p| p.whole).collect();
-    let seen = others.into_iter().map(|piece| untrimmed(piece, &own)).collect();
-    GateWalls { left, right, ahead: seen }
+    let ahead = others.into_iter().map(|piece| untrimmed(piece, &own)).collect();
+    GateWalls { left, right, ahead }
 }
 
 /// The walls of a loop beside one of its crossings.
@@ -105,7 +105,7 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
     Ends { before: follow(&second, true, center), after: follow(&first, false, center), others }
 }
 
-/// Follows a wall beyond the gate where its stretch ends, as long as it is convex and until it has turned by half a turn.
+/// Follows a wall past the gate at the end of its stretch, as long as it is convex and up to half a turn.
 fn extend(mesh: &Mesh, (mut index, mut wall, by): (usize, usize, Vec2), backwards: bool, parts: &mut Vec<WallPiece>) {
     if let Some(last) = parts.last_mut().filter(|last| last.whole.is_closed()) {
         last.curve = half_around(&last.curve, backwards);
@@ -113,7 +113,7 @@ fn extend(mesh: &Mesh, (mut index, mut wall, by): (usize, usize, Vec2), backward
     }
     let mut turned: f64 = parts.iter().map(|piece| sweep(&piece.curve)).sum();
     let mut offset = by;
-    // A wall has no more stretches than there are crossings.
+    // A wall has at most as many stretches as there are crossings.
     for _ in 0..mesh.gates.len() + mesh.loops.len() {
         let crossing = if backwards { wall + mesh.loops[index].walls.len() - 1 } else { wall };
         let crossing = crossing % mesh.loops[index].walls.len();
@@ -146,7 +146,7 @@ fn extend(mesh: &Mesh, (mut index, mut wall, by): (usize, usize, Vec2), backward
     }
 }
 
-/// The signed angle by which a curve turns, in rad.
+/// The signed turning angle of a curve in rad.
 fn sweep(curve: &Curve) -> f64 {
     match curve {
         Curve::Segment { .. } => 0.0,
@@ -154,7 +154,7 @@ fn sweep(curve: &Curve) -> f64 {
     }
 }
 
-/// A stretch of wall cut in its middle.
+/// A stretch of wall, cut in its middle.
 fn halves(wall: &[WallPiece]) -> (Vec<WallPiece>, Vec<WallPiece>) {
     let middle = 0.5 * wall.iter().map(|piece| piece.curve.length()).sum::<f64>();
     let (mut first, mut second, mut passed) = (Vec::new(), Vec::new(), 0.0);
@@ -220,7 +220,7 @@ fn half_around(arc: &Curve, backwards: bool) -> Curve {
     }
 }
 
-/// A disc ahead is seen whole, unless it is one of the walls along which the meniscus moves.
+/// A disc ahead is taken as a whole, unless it is one of the walls along which the meniscus moves.
 fn untrimmed(piece: WallPiece, own: &[Curve]) -> WallPiece {
     let is_seen_whole = piece.whole.is_closed() && own.iter().all(|curve| !is_same(curve, &piece.whole));
     if is_seen_whole { WallPiece { curve: piece.whole, ..piece } } else { piece }
@@ -230,7 +230,7 @@ fn shifted(piece: WallPiece, by: Vec2) -> WallPiece {
     WallPiece { curve: piece.curve.shifted(by), whole: piece.whole.shifted(by), shape: piece.shape }
 }
 
-/// Whether two arcs are of one circle; they are copied, and moved by whole periods only.
+/// Whether two arcs are on the same circle; arcs are only copied and shifted by whole periods.
 pub(super) fn is_same(a: &Curve, b: &Curve) -> bool {
     const ROUNDING: f64 = 1e-9;
     match (a, b) {

@@ -1,42 +1,41 @@
-//! The curvature over the area: of a meniscus over what it has swept in its gate, up to its event, and of the body in an element over what
-//! fills it.
+//! Capillary curves, curvature over area: of a meniscus over its swept area up to its event, and of a filling pore over its filled area.
 
 use std::sync::Arc;
 
 use crate::interface::menisci::Passage;
 
-/// Menisci that a table is made of; they stand closer towards the event, where the curvature of a burst is level.
-const PLACES: usize = 17;
-/// Capacity, in widths cubed, of a meniscus that is drawn back as far as it can be: so small that it hardly gives more, and above 0, so
-/// that it comes forth again by itself.
+/// Points of a curve; they are denser towards the event, where the curvature of a burst levels off.
+const POINTS: usize = 17;
+/// Capacity dA/dκ, in widths cubed, of a fully receded meniscus: so small that it hardly recedes further, and above 0, so that it can
+/// advance again.
 const CLOSED: f64 = 1e-4;
-/// Least area between two points in squared widths.
+/// Least area between two points in widths squared.
 const LEAST: f64 = 1e-9;
 
-/// A rising, piecewise linear function.
+/// A piecewise linear, rising curvature over area.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CapillaryCurve {
-    /// Swept area in m² since the chord of the gate, rising.
+    /// Swept area in m² since the chord of the gate, ascending.
     area: Vec<f64>,
-    /// Curvature in 1/m, rising.
+    /// Curvature in the plane in 1/m, ascending.
     curvature: Vec<f64>,
-    /// The same with that by floor and lid: what resists, over the tension.
+    /// Total curvature in 1/m including that by floor and lid: capillary pressure over tension.
     total: Vec<f64>,
-    /// Change of curvature with area in 1/m³ before the first point.
+    /// Slope dκ/dA in 1/m³ before the first point.
     closed: f64,
 }
 
 impl CapillaryCurve {
-    /// The stable menisci of a passage up to its event at the curvature `event` (1/m), between walls `width` (m) apart at the chord; none
-    /// where no meniscus ever passes.
+    /// The stable menisci of a passage up to its event at the curvature `event` (1/m), between walls `width` (m) apart at the chord; `None`
+    /// if no meniscus ever passes.
     pub(crate) fn new(passage: &Passage, event: f64, width: f64) -> Option<Self> {
         if !event.is_finite() || !(width > 0.0) {
             return None;
         }
         let lowest = passage.lowest()?.curvature.min(event);
         let (mut area, mut curvature): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-        for point in 0..PLACES {
-            let left = 1.0 - point as f64 / (PLACES - 1) as f64;
+        for point in 0..POINTS {
+            let left = 1.0 - point as f64 / (POINTS - 1) as f64;
             let k = event - (event - lowest) * left * left;
             let Some(swept) = passage.at(k).map(|meniscus| passage.swept_area(&meniscus)) else { continue };
             let is_next = area.last().is_none_or(|&before| swept > before + LEAST * width * width)
@@ -46,7 +45,7 @@ impl CapillaryCurve {
                 curvature.push(k);
             }
         }
-        // Where the last menisci differ by rounding only, the event is met where they stand.
+        // If the last menisci differ only by rounding, the event is at the last one kept.
         if let Some(last) = curvature.last_mut() {
             *last = event;
         }
@@ -58,7 +57,7 @@ impl CapillaryCurve {
         })
     }
 
-    /// The same where floor and lid curve menisci too: by their `total` curvature (1/m) for one in the plane.
+    /// The same with the curvature by floor and lid: `total` maps a curvature in the plane to the total one, both in 1/m.
     pub(crate) fn between(mut self, total: impl Fn(f64) -> f64) -> Self {
         self.total.iter_mut().for_each(|curvature| *curvature = total(*curvature));
         self
@@ -69,7 +68,7 @@ impl CapillaryCurve {
         self.at(&self.curvature, area).0
     }
 
-    /// What resists over the tension in 1/m at a swept area in m², and its change with the area in 1/m³.
+    /// Total curvature in 1/m at a swept area in m², and its derivative with respect to the area in 1/m³.
     pub(crate) fn resistance(&self, area: f64) -> (f64, f64) {
         self.at(&self.total, area)
     }
@@ -83,7 +82,7 @@ impl CapillaryCurve {
         (curvature[end] + slope * (area - self.area[end]), slope)
     }
 
-    /// The swept area v in m² at which c (v − `from`) and what resists sum to `drive`, with c in 1/m³ and the drive in 1/m.
+    /// The swept area v in m² at which c (v − `from`) plus the total curvature is `drive`, with c in 1/m³ and the drive in 1/m.
     pub(crate) fn standing(&self, from: f64, c: f64, drive: f64) -> f64 {
         let need = |point: usize| c * (self.area[point] - from) + self.total[point];
         let (mut low, mut high) = (0, self.area.len());
@@ -125,15 +124,15 @@ impl CapillaryCurve {
         (self.area[last], self.curvature[last])
     }
 
-    /// Swept area in m² and curvature in 1/m of the meniscus that is drawn back as far as it can be.
+    /// Swept area in m² and curvature in 1/m of the fully receded meniscus.
     pub(crate) fn start(&self) -> (f64, f64) {
         (self.area[0], self.curvature[0])
     }
 
-    /// That of a body in an element, from places of rising area in m² and curvature in 1/m; the curvature of the first is that of the body
-    /// before, and the last one is passed with a change of curvature of `last` in 1/m³.
-    pub(crate) fn of_body(places: &[(f64, f64)], last: f64) -> Self {
-        let (mut area, mut curvature): (Vec<f64>, Vec<f64>) = places.iter().copied().unzip();
+    /// The curve of a filling pore through points of ascending area in m² and curvature in 1/m: constant before the first, of the slope `last`
+    /// in 1/m³ past the last.
+    pub(crate) fn of_body(points: &[(f64, f64)], last: f64) -> Self {
+        let (mut area, mut curvature): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         if let (Some(&a), Some(&k)) = (area.last(), curvature.last()) {
             area.push(a + 1.0 / last);
             curvature.push(k + 1.0);
@@ -141,30 +140,30 @@ impl CapillaryCurve {
         Self { area, total: curvature.clone(), curvature, closed: 0.0 }
     }
 
-    /// A constant curvature in 1/m between two areas in m², of a meniscus that has passed between walls `width` (m) apart: drawn back to the first area it
-    /// stays there.
+    /// A constant curvature in 1/m between two areas in m², of a meniscus past walls `width` (m) apart; it does not recede below the first
+    /// area.
     pub(crate) fn level(area: [f64; 2], curvature: f64, width: f64) -> Self {
         let curvature = vec![curvature; 2];
         Self { area: area.to_vec(), total: curvature.clone(), curvature, closed: 1.0 / (CLOSED * width.powi(3)) }
     }
 
-    /// That of a body of a constant curvature in 1/m.
+    /// The curve of a filling pore of a constant curvature in 1/m.
     pub(crate) fn constant(curvature: f64) -> Self {
         Self { area: vec![0.0], curvature: vec![curvature], total: vec![curvature], closed: 0.0 }
     }
 
-    /// The area in m² that errors of areas are compared with.
+    /// Scale of errors of areas in m².
     pub(crate) fn scale(&self) -> f64 {
         let range = self.end().0 - self.area[0];
         range.max(self.end().1.abs().max(f64::MIN_POSITIVE) / self.closed)
     }
 }
 
-/// Where a meniscus that enters a pore at the outlet touches the side.
+/// The meniscus past its event in a pore at the outlet, up to its touch of the outlet side.
 #[derive(Debug, Clone)]
 pub(super) struct Reach {
-    /// Area in m² that it has swept since the chord of its gate.
+    /// Area in m² swept since the chord of its gate when it touches.
     pub(super) area: f64,
-    /// What resists until then.
+    /// Its capillary curve until then.
     pub(super) curve: Arc<CapillaryCurve>,
 }

@@ -1,4 +1,4 @@
-//! The conductors of a state: which parts of the pore space share a pressure, and what resists between them.
+//! The graph of a state: nodes are parts of the pore space with one pressure, links the conductors between them.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +9,20 @@ use crate::network::conductance::LEAST_RESISTANCE as LEAST;
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::{Edge, FlowError, Laplacian};
 
-/// The node of a body of invading phase.
+/// The node of a filling pore.
 struct BodyNode {
     node: usize,
-    /// In m² of all throats on the side of the body.
+    /// Conductance in m² of all throats on its side.
     conductance: f64,
     /// Least resistance in 1/m² on the other side.
     least: f64,
 }
 
-/// Least resistance of a body over that of a throat on the other side.
+/// Least resistance of a filling pore over that of a throat on the other side.
 const LEAST_BODY: f64 = 1e-2;
 
 impl BodyNode {
-    /// A throat leads into the body: half of its resistance on the side of the body is shared with the others.
+    /// Joins a throat to the filling pore: half of its resistance on this side is shared with the other throats.
     fn join(&mut self, halves: &mut [f64; 2]) {
         halves[1] *= 0.5;
         self.conductance += 1.0 / halves[1];
@@ -31,7 +31,7 @@ impl BodyNode {
         }
     }
 
-    /// In 1/m².
+    /// Shared resistance in 1/m².
     fn resistance(&self) -> f64 {
         let shared = 1.0 / self.conductance;
         if self.least.is_finite() { shared.max(self.least) } else { shared }
@@ -39,10 +39,10 @@ impl BodyNode {
 }
 
 impl Dynamic {
-    /// The conductors of the present state.
+    /// The graph of the present state.
     pub(super) fn graph(&self) -> Result<Graph, FlowError> {
         let elements = self.state.filling.len();
-        // Elements of one region that hold the same phase side by side have one pressure.
+        // Adjoining elements of one region that hold the same phase have one pressure.
         let mut parent: Vec<usize> = (0..elements).collect();
         for gate in self.gates.iter().filter(|gate| gate.throat.is_none()) {
             let [a, b] = gate.elements;
@@ -97,7 +97,7 @@ impl Dynamic {
                 () if self.terms.outlet[side] => Way::Outlet,
                 () => continue,
             };
-            // Into a body the flow is against the link.
+            // Flow into a filling pore is against the direction of the link.
             let mut halves = [0.0, self.opening_resistances[opening]];
             let mut node = node_of[element];
             if let Some(filling_pore) = filling_pores.get_mut(&element).filter(|_| way == Way::Inlet) {
@@ -119,9 +119,9 @@ impl Dynamic {
         Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of })
     }
 
-    /// The bodies of invading phase in elements that are being filled, with nodes of their own.
+    /// The filling pores, each with a node of its own.
     fn filling_pores(&self, nodes: &mut usize) -> BTreeMap<usize, BodyNode> {
-        // Elements between two menisci that have met around a grain are filled once those ahead of them let the phase in.
+        // An element between two menisci that have merged around a grain fills once a meniscus has entered it.
         let enters = |&(gate, end): &FrontId| self.state.menisci[gate][end].is_some_and(|meniscus| meniscus.has_burst);
         let is_entered = |&e: &usize| {
             let has_way_in = self.is_inlet[e] || self.displacement.gates_of(e).iter().any(enters);
@@ -135,7 +135,7 @@ impl Dynamic {
         filling.map(|element| (element, next())).collect()
     }
 
-    /// Resistances in 1/m² of both sides of a gate. Across a segment that divides a region a phase flows as through a square of its width.
+    /// Resistances in 1/m² of both sides of a gate. A segment that divides a region resists as a square channel of its width.
     fn halves(&self, gate: usize) -> [f64; 2] {
         let facts = &self.gates[gate];
         let width = facts.width;
@@ -149,7 +149,7 @@ impl Dynamic {
         }
     }
 
-    /// Viscosity in Pa s of what an element holds: of one that is being filled, the mean by area.
+    /// Viscosity in Pa s of the phase in an element; in a filling element the mean by area.
     pub(super) fn viscosity(&self, element: usize) -> f64 {
         let [invading, defending] = self.terms.viscosity;
         match &self.state.filling[element] {

@@ -1,4 +1,4 @@
-//! What a step may come to, and how far it is.
+//! Event functions: dimensionless, above 0 before an event and 0 at it; the first zero ends a step.
 
 use std::sync::Arc;
 
@@ -6,82 +6,81 @@ use super::Dynamic;
 use super::capillary_curve::CapillaryCurve;
 use crate::network::displacement::{Advance, FrontId};
 
-/// What a step may come to.
+/// An event function.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum EventFunction {
     /// A meniscus reaches its own event: index of the advance.
     Own(usize, FrontId),
     /// Two menisci meet: index of the advance.
     Meeting(usize, [FrontId; 2]),
-    /// Menisci that wait to enter an element cover all of it.
+    /// Menisci at the gates of an element together cover it.
     Covered {
         element: usize,
         fronts: Vec<FrontId>,
-        /// Area in m² of those to come, from elements that are being filled.
+        /// Area in m² of those yet to form, from filling elements.
         held: f64,
     },
     /// An element is full.
     Full {
         element: usize,
-        /// Area in m² of the invading phase when it is full, in the element and in the menisci that then wait in its gates.
+        /// Area in m² of the invading phase when it is full, in the element and in the menisci that then form in its gates.
         target: f64,
     },
-    /// A meniscus in an element at the outlet touches the side.
+    /// A meniscus in an element at the outlet touches the outlet side.
     Leaves(FrontId),
-    /// An element is full, or, where that is quick, the first of the menisci that will wait ahead of it reaches its event: number of the body.
+    /// An element is full, or, if it fills quickly, the first meniscus that then forms reaches its event: index of the filling pore.
     Beyond(usize),
-    /// A meniscus that will wait ahead of an element meets another one, both by the number of the body or the front, at a curvature in 1/m.
+    /// A meniscus yet to form meets another one, each by filling pore or front, at a curvature in 1/m.
     ToMeet([Side; 2], f64),
 }
 
 /// One of two menisci that meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Side {
-    /// It waits.
+    /// A present meniscus.
     Front(FrontId),
-    /// It is to come: the number of the body.
+    /// One yet to form: index of the filling pore.
     FillingPore(usize),
 }
 
-/// The body of invading phase in an element that is being filled.
+/// The invading phase in a filling element.
 #[derive(Debug, Clone)]
 pub(super) struct FillingPore {
     pub(crate) element: usize,
-    /// Its curvature over its area: constant until the element is full, then the common one of the menisci that will wait in its gates.
+    /// Curvature over area: constant until the element is full, then the common curvature of the menisci in its gates.
     pub(crate) curve: Arc<CapillaryCurve>,
-    /// Its area in m² now, when the element is full, and when the first of the menisci ahead reaches its event.
+    /// Area in m² now, when the element is full, and when the first meniscus ahead reaches its event.
     pub(crate) area: f64,
     pub(crate) full: f64,
     pub(crate) first: Option<f64>,
-    /// Whether a step may go on when its element is full.
+    /// Whether a step may continue when the element is full.
     pub(crate) passes: bool,
 }
 
 impl FillingPore {
-    /// Area in m² just beyond that of the element that is full.
+    /// Area in m² just above that at which the element is full.
     pub(crate) fn beyond(&self) -> f64 {
         self.full * (1.0 + 1e-9)
     }
 }
 
-/// The areas in m² that goals are compared with.
+/// The areas in m² at which event functions are evaluated.
 pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
-    /// Swept by a meniscus that waits.
+    /// Swept by a meniscus.
     pub(crate) front: F,
-    /// Of a body, by its number.
+    /// Of a filling pore, by its index.
     pub(crate) filling_pore: B,
 }
 
-/// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
-/// phase has it in the element ahead.
+/// Tolerance of an event function at the end of a step. An overshoot is not lost: it belongs to the element ahead.
 pub(super) const REACHED: f64 = 1e-3;
-/// Tolerance of an area that fills an element with menisci ahead over that of one without.
+/// Tolerance of the area of an element with menisci ahead over that of one without.
 const LOOSE: f64 = 10.0;
-/// Places of the curvature of a body beyond the element that it fills.
-const PLACES: usize = 9;
-/// Least area that menisci ahead of an element are reckoned to take up until the first event, over that of the element.
+/// Points of the capillary curve of a filling pore past full.
+const POINTS: usize = 9;
+/// Least area assumed for the menisci ahead of an element until the first event, over that of the element.
 const LEAST_BEYOND: f64 = 1e-2;
-/// Capacity of a body that fills all there is, over the area of its element to the power 3/2.
+/// Capacity dA/dκ of a filling pore at the end of its curve, over the area of its element to the power 3/2.
 const CLOSED: f64 = 1e-3;
 
 impl Dynamic {
@@ -89,7 +88,7 @@ impl Dynamic {
         self.state.menisci[gate][end].is_some_and(|meniscus| !meniscus.has_burst)
     }
 
-    /// What fires an event.
+    /// The functions of all events of the present menisci and elements.
     pub(super) fn event_functions(&self) -> Vec<EventFunction> {
         let mut event_functions = Vec::new();
         for (index, advance) in self.advances.iter().enumerate() {
@@ -104,7 +103,7 @@ impl Dynamic {
         }
         for element in (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element)) {
             let fronts: Vec<FrontId> = self.entering(element).map(|(front, _)| front).collect();
-            // An element at the outlet is never full: what covers it leaves.
+            // An element at the outlet is never full: the invading phase leaves it.
             let is_leaving = self.is_outlet[element] && !fronts.is_empty();
             if self.state.filling[element].is_some() && !is_leaving {
                 continue;
@@ -130,7 +129,7 @@ impl Dynamic {
         advance.fills.iter().any(|&element| self.state.filling[element].is_none())
     }
 
-    /// What ends a step: elements become full on the way.
+    /// The functions whose zeros end a step, in which elements may become full.
     pub(super) fn ends_of_step(&self, filling_pores: &[FillingPore]) -> Vec<EventFunction> {
         let mut event_functions = self.event_functions();
         let has_body = |element: usize| filling_pores.iter().any(|filling_pore| filling_pore.element == element);
@@ -154,18 +153,18 @@ impl Dynamic {
         event_functions
     }
 
-    /// The elements being filled from which the defending phase has a way to an outlet.
+    /// The filling elements from which the defending phase has a path to an outlet.
     pub(super) fn open_fillings(&self) -> Vec<usize> {
         let trapped = self.trapped();
         let fills = |&e: &usize| self.state.filling[e].is_some() && !self.is_outlet[e] && !trapped[e];
         (0..trapped.len()).filter(fills).collect()
     }
 
-    /// The body in an element that is being filled.
+    /// The invading phase in a filling element.
     pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling) -> FillingPore {
         let own = self.displacement.elements()[element].area;
         let overhangs: f64 = self.overhangs(element).iter().map(|(_, area)| area).sum();
-        // What the full element cuts off from the outlet lets no meniscus go on.
+        // Menisci ahead of elements that the full element cuts off from the outlet do not advance.
         let cut_off = self.trapped_once_full(Some(element));
         let (stopped, ahead): (Vec<_>, Vec<_>) =
             self.to_come(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
@@ -173,14 +172,14 @@ impl Dynamic {
         let first = ahead.iter().map(|to_come| to_come.curve.end().1).reduce(f64::min);
         let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - overhangs;
         let full = held(filling.curvature);
-        let mut places = vec![(full, filling.curvature)];
+        let mut points = vec![(full, filling.curvature)];
         let last = first.map_or(filling.curvature, |first| first.max(filling.curvature));
-        for place in 1..PLACES {
-            let left = 1.0 - place as f64 / (PLACES - 1) as f64;
+        for point in 1..POINTS {
+            let left = 1.0 - point as f64 / (POINTS - 1) as f64;
             let k = last - (last - filling.curvature) * left * left;
-            let (area, before) = (held(k), places[places.len() - 1]);
+            let (area, before) = (held(k), points[points.len() - 1]);
             if area > before.0 + 1e-6 * own && k > before.1 {
-                places.push((area, k));
+                points.push((area, k));
             }
         }
         FillingPore {
@@ -188,21 +187,21 @@ impl Dynamic {
             area: self.filled_area(element, filling),
             full,
             passes: false,
-            first: first.map(|_| places[places.len() - 1].0),
+            first: first.map(|_| points[points.len() - 1].0),
             curve: Arc::new(
-                CapillaryCurve::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))
+                CapillaryCurve::of_body(&points, 1.0 / (CLOSED * own * own.sqrt()))
                     .between(|curvature| self.terms.with_depth(curvature)),
             ),
         }
     }
 
-    /// The area in m² that errors of what fills an element are compared with: more where menisci ahead take what is too much.
+    /// Scale in m² of errors of the area in an element: larger if menisci ahead can take an excess.
     fn scale_of_filling(&self, element: usize) -> f64 {
         let loose = if self.ahead[element].is_empty() { 1.0 } else { LOOSE };
         loose * self.displacement.elements()[element].area
     }
 
-    /// What is missing until a goal, below 0 beyond it.
+    /// The value of an event function, below 0 past the event.
     pub(super) fn value_of<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64>(
         &self,
         filling_pores: &[FillingPore],
@@ -226,7 +225,7 @@ impl Dynamic {
             }
             EventFunction::Full { element, target } => {
                 let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
-                // What a meniscus that recedes out of it takes along was in it before.
+                // The area of a meniscus that recedes was in the element before.
                 let waiting: f64 = self.entering(*element).map(|(front, _)| (at.front)(front).max(0.0)).sum();
                 (target - filled - waiting) / self.scale_of_filling(*element)
             }

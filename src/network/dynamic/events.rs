@@ -1,4 +1,4 @@
-//! What happens when a meniscus reaches its event, and when an element is full.
+//! State changes at events: menisci enter elements, and full elements get new menisci.
 
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use super::{Dynamic, Filling, Meniscus, Occurrence};
 use crate::network::cycles::Invasion;
 use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
 
-/// A meniscus that will wait ahead of an element.
+/// A meniscus that will form in a gate of a filling element once it is full.
 pub(super) struct ToCome<'a> {
     pub(crate) front: FrontId,
     pub(crate) curve: &'a CapillaryCurve,
-    /// Area in m² that is free ahead of it.
+    /// Free area in m² ahead of it.
     free: f64,
 }
 
@@ -23,15 +23,15 @@ impl ToCome<'_> {
     }
 }
 
-/// A meniscus that begins to wait where an element is full.
-struct Begun {
+/// A meniscus that forms in a gate of an element that has become full.
+struct NewMeniscus {
     front: FrontId,
     curve: CapillaryCurve,
-    /// Largest curvature in 1/m that the full element gives it: of one whose element is cut off, that of the body that filled it.
+    /// Upper bound of its curvature in 1/m: that of the filling phase if the element ahead is cut off from the outlet.
     most: f64,
 }
 
-impl Begun {
+impl NewMeniscus {
     /// Swept area in m² at a curvature in 1/m.
     fn area(&self, curvature: f64) -> f64 {
         self.curve.area(curvature.min(self.most))
@@ -44,7 +44,7 @@ impl Dynamic {
         self.state.menisci[gate][end].map_or(0.0, |meniscus| meniscus.area)
     }
 
-    /// Overlaps of the menisci that will wait ahead of elements that are being filled, with one another and with those that wait.
+    /// Overlaps of the menisci that will form when filling elements are full, with one another and with present ones.
     pub(super) fn find_meetings_to_come(&self) -> Vec<Advance> {
         let filling: Vec<usize> = (0..self.state.filling.len())
             .filter(|&element| self.state.filling[element].is_some() && !self.is_outlet[element])
@@ -57,13 +57,13 @@ impl Dynamic {
         full.new_advances().into_iter().filter(|advance| advance.fronts.1.is_some()).collect()
     }
 
-    /// Area in m² of the invading phase in an element when it is full, with that of the menisci that then wait in its gates.
+    /// Area in m² of the invading phase in an element when it is full, including the menisci that then form in its gates.
     pub(super) fn target(&self, element: usize, filling: &Filling) -> f64 {
         let menisci: f64 = self.to_come(element).iter().map(|it| it.area(filling.curvature)).sum();
         self.displacement.elements()[element].area + menisci
     }
 
-    /// The menisci that will wait ahead of an element that is being filled.
+    /// The menisci that will form in the gates of a filling element once it is full.
     pub(super) fn to_come(&self, element: usize) -> Vec<ToCome<'_>> {
         let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
         ahead
@@ -78,8 +78,8 @@ impl Dynamic {
             .collect()
     }
 
-    /// What neighbors that are being filled hold beyond their own areas stands in menisci that are to come: those that will enter an element,
-    /// with their areas in m².
+    /// The area in m² that filling neighbors hold in excess of their own belongs to menisci yet to form: those that will enter an element, each
+    /// with its part.
     pub(super) fn overhangs(&self, into: usize) -> Vec<(FrontId, f64)> {
         let overhang = |&front: &FrontId| {
             let neighbor = self.behind(front);
@@ -106,13 +106,13 @@ impl Dynamic {
         self.gates[gate].elements[1 - end]
     }
 
-    /// Does all events that are due, one after the other; whether there was one.
+    /// Processes all events that are due, one after the other; returns whether there was one.
     pub(super) fn process_events(&mut self) -> bool {
         let mut has_event = false;
         loop {
             let event_functions = self.event_functions();
             let now = Areas { front: |front| self.area_now(front), filling_pore: |_| 0.0 };
-            // What is full comes first, then the event of the lowest curvature.
+            // Full elements come first, then the event of the lowest curvature.
             let curvature = |function: &EventFunction| match function {
                 EventFunction::Own(advance, _) | EventFunction::Meeting(advance, _) => {
                     self.advances[*advance].curvature
@@ -129,13 +129,13 @@ impl Dynamic {
                 EventFunction::Covered { element, .. } => self.cover(element),
                 EventFunction::Full { element, .. } => self.complete(element),
                 EventFunction::Leaves(front) => self.leave(front),
-                // These end a step and are events of what waits then.
+                // These only end a step; the events of the menisci that form then follow.
                 EventFunction::Beyond(_) | EventFunction::ToMeet(..) => return has_event,
             }
         }
     }
 
-    /// Notes an event of a meniscus at a curvature in 1/m.
+    /// Records an event of a meniscus at a curvature in 1/m.
     fn note(&mut self, kind: EventKind, front: FrontId, curvature: f64) -> Invasion {
         let saturation = self.invading_area() / self.pore_area;
         self.state.history.push(Occurrence {
@@ -149,7 +149,7 @@ impl Dynamic {
         Invasion { sequence: self.state.history.len(), applied: curvature, displaced: saturation }
     }
 
-    /// Lets all menisci that wait to enter an element into it: together they cover it, so that they have met.
+    /// All menisci at the gates of an element enter it: together they cover it, so they have met.
     fn cover(&mut self, element: usize) {
         let waiting: Vec<(FrontId, f64)> = self
             .entering(element)
@@ -171,7 +171,7 @@ impl Dynamic {
         waiting.into_iter().for_each(|(front, _)| self.burst(front));
     }
 
-    /// Lets the menisci of an advance into the elements ahead.
+    /// The menisci of an advance enter the elements ahead.
     fn pass(&mut self, index: usize) {
         let advance = self.advances[index].clone();
         let (front, partner) = advance.fronts;
@@ -193,7 +193,7 @@ impl Dynamic {
         self.graph = None;
     }
 
-    /// The menisci that may wait in the gates of an element once it is full.
+    /// The menisci that may form in the gates of an element once it is full.
     pub(super) fn menisci_ahead(&self, element: usize) -> Vec<(FrontId, CapillaryCurve)> {
         let gates = self.displacement.gates_of(element).iter().map(|&(gate, end)| (gate, 1 - end));
         let ahead = gates.filter(|&front| self.ahead_of(front) != element && !self.is_invaded(self.ahead_of(front)));
@@ -205,8 +205,7 @@ impl Dynamic {
             .collect()
     }
 
-    /// Curvature in 1/m of a body of invading phase in the largest inscribed circle of an element: cos θ over its radius, with the mean of
-    /// cos θ along its walls.
+    /// Curvature in 1/m of the invading phase in the largest inscribed circle of an element: the mean of cos θ along its walls over the radius.
     fn body_curvature(&self, element: usize) -> f64 {
         let angles = self.displacement.angles();
         let (mut length, mut sum) = (0.0, 0.0);
@@ -231,7 +230,7 @@ impl Dynamic {
         self.graph = None;
     }
 
-    /// An element is full: menisci wait in its gates, with the same area of the invading phase as before.
+    /// An element is full: menisci form in its gates, and the area of the invading phase is conserved.
     fn complete(&mut self, element: usize) {
         for (front, area) in self.overhangs(element) {
             for (holder, change) in [(self.behind(front), -area), (element, area)] {
@@ -248,22 +247,22 @@ impl Dynamic {
         }
         self.finish(element);
         let cut_off = self.trapped();
-        let new: Vec<Begun> = std::mem::take(&mut self.ahead[element])
+        let new: Vec<NewMeniscus> = std::mem::take(&mut self.ahead[element])
             .into_iter()
             .filter(|(front, _)| self.displacement.front(*front).is_some())
             .map(|(front, curve)| {
                 let is_cut_off = cut_off[self.ahead_of(front)];
-                Begun { front, curve, most: if is_cut_off { filling.curvature } else { f64::INFINITY } }
+                NewMeniscus { front, curve, most: if is_cut_off { filling.curvature } else { f64::INFINITY } }
             })
             .collect();
-        // What they hold too much goes to the one that passes its event first, among those whose element has a way to the outlet.
+        // The excess goes to the first to reach its event among those with a path to the outlet.
         let going_on = new.iter().filter(|begun| begun.most == f64::INFINITY);
         let first = going_on.map(|it| (it.curve.end().1, it.front)).min_by(|a, b| a.0.total_cmp(&b.0));
         let curvature = common_curvature(&new, left, first.map_or(filling.curvature, |(curvature, _)| curvature));
         left -= new.iter().map(|begun| begun.area(curvature)).sum::<f64>();
         for begun in new {
             let mut area = begun.area(curvature);
-            let Begun { front, curve, .. } = begun;
+            let NewMeniscus { front, curve, .. } = begun;
             if first.is_some_and(|(_, first)| first == front) {
                 area += std::mem::take(&mut left);
             }
@@ -278,7 +277,7 @@ impl Dynamic {
         self.graph = None;
     }
 
-    /// Tells the displacement that an element is full, and keeps what menisci wait for then.
+    /// Marks an element as full in the displacement and updates the pending events.
     pub(super) fn finish(&mut self, element: usize) {
         self.displacement.complete(element);
         debug_assert_eq!(self.displacement.phase(element), Phase::Invading);
@@ -289,8 +288,8 @@ impl Dynamic {
     }
 }
 
-/// The curvature in 1/m at which menisci hold an area in m² together, at most `most`.
-fn common_curvature(menisci: &[Begun], area: f64, most: f64) -> f64 {
+/// The common curvature in 1/m at which menisci together hold an area in m², at most `most`.
+fn common_curvature(menisci: &[NewMeniscus], area: f64, most: f64) -> f64 {
     const HALVINGS: usize = 80;
     let held = |k: f64| menisci.iter().map(|begun| begun.area(k)).sum::<f64>();
     let mut high = most;

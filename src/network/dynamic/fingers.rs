@@ -1,4 +1,4 @@
-//! The shape of what the invading phase holds: width of fingers, length of the interface.
+//! The shape of the invading phase: width of fingers, length of the interface.
 
 use super::Dynamic;
 use crate::math::Vec2;
@@ -10,14 +10,14 @@ const CUTS: usize = 64;
 /// Fingers of the invading phase, counted on lines across the flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fingers {
-    /// Mean width in m from the first to the last pore that a finger holds on a line; NaN where there is none.
+    /// Mean width in m from the first to the last pore of a finger on a line; NaN without fingers.
     pub(crate) width: f64,
     /// Mean number per line that the invading phase has reached.
     pub(crate) count: f64,
 }
 
 impl Dynamic {
-    /// Fingers on lines across the direction from inlet to outlet. A finger ends where the defending phase stands; solids in it count.
+    /// Fingers on lines across the direction from inlet to outlet. A finger ends at the defending phase; solids in it count.
     pub(crate) fn fingers(&self, config: &Configuration) -> Fingers {
         let axis = config.inlet.map_or(0, |inlet| inlet / 2);
         let (low, size) = (config.bounds.min[axis], config.bounds.size()[axis]);
@@ -60,13 +60,13 @@ impl Dynamic {
         Fingers { width: widths / fingers as f64, count: fingers as f64 / lines as f64 }
     }
 
-    /// Length in m of all menisci that wait.
+    /// Length in m of all menisci before their events.
     pub(crate) fn interface_length(&self) -> f64 {
         self.arcs().map(|arc| arc.curve().length()).sum()
     }
 }
 
-/// The pieces of the line at `at` across `axis` that lie in a polygon.
+/// The segments of the line at `at` across `axis` within a polygon.
 fn pieces(outline: &[Vec2], axis: usize, at: f64) -> Vec<[f64; 2]> {
     let mut crossings: Vec<f64> = (0..outline.len())
         .filter_map(|k| {

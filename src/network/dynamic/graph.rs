@@ -1,16 +1,16 @@
-//! The network as conductors: ways for fluid between the parts of the pore space that share a pressure.
+//! The network as a graph: links for flow between nodes of one pressure each.
 
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::Laplacian;
 
-/// A way for fluid.
+/// The type of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Way {
     /// A throat with one phase on both sides.
     Open,
     /// A gate with a meniscus.
     Meniscus(FrontId),
-    /// From the body of invading phase in an element that is being filled to the defending phase in it.
+    /// From the invading to the defending phase in a filling element.
     FillingPore(usize),
     /// An opening of the inlet.
     Inlet,
@@ -18,7 +18,7 @@ pub(super) enum Way {
     Outlet,
 }
 
-/// A conductor with the elements that it joins; one at an open side has its element twice.
+/// A link with the elements that it joins; at an open side both are the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Link {
     pub(crate) way: Way,
@@ -27,13 +27,13 @@ pub(super) struct Link {
     pub(crate) halves: [f64; 2],
 }
 
-/// All conductors of a state, until an event changes it.
+/// The graph of a state, valid until the next event.
 #[derive(Debug, Clone)]
 pub(super) struct Graph {
     pub(crate) laplacian: Laplacian,
     pub(crate) links: Vec<Link>,
     pub(crate) nodes: usize,
-    /// The node of the inlet, where a rate is given.
+    /// The node of the inlet if a rate is given.
     pub(crate) inlet: Option<usize>,
     /// By gate: the link of its meniscus.
     pub(crate) link_of: Vec<Option<usize>>,

@@ -1,4 +1,4 @@
-//! What a step begins with: what resists by its curvature, and what the step may come to.
+//! The data of a step: capillary laws, resistances, sources and event functions.
 
 use std::sync::Arc;
 
@@ -8,54 +8,54 @@ use super::graph::{Graph, Link, Way};
 use super::{Drive, Dynamic};
 use crate::network::displacement::FrontId;
 
-/// What stays as it is while the length of a step is sought.
+/// What is constant during the search for the step length.
 pub(super) struct Known {
     pub(crate) event_functions: Vec<EventFunction>,
-    /// Whether an element may be full first.
+    /// Whether a full element may end the step.
     pub(crate) fills: bool,
     pub(crate) filling_pores: Vec<FillingPore>,
-    /// What resists by its curvature.
+    /// Links that resist by a curvature.
     pub(crate) laws: Vec<CapillaryLaw>,
-    /// By link: its law.
+    /// By link: index of its law.
     pub(crate) law_of: Vec<Option<usize>>,
-    /// By body: its law.
+    /// By filling pore: index of its law.
     pub(crate) law_of_body: Vec<usize>,
-    /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a law.
+    /// By link: viscous resistance in Pa s/m², and pressure drop in Pa without flow and without its law.
     pub(crate) drops: Vec<(f64, f64)>,
-    /// Of each node in m²/s.
+    /// Source of each node in m²/s.
     pub(crate) sources: Vec<f64>,
 }
 
-/// A link that resists by a curvature: a meniscus that waits, or the body in an element.
+/// A link that resists by a curvature: a meniscus or a filling pore.
 pub(super) struct CapillaryLaw {
     pub(crate) link: usize,
     pub(crate) curve: Arc<CapillaryCurve>,
     /// Area in m² before the step.
     pub(crate) area: f64,
-    /// Area in m² to begin with.
+    /// Initial guess in m² of the area after the step.
     pub(crate) start: f64,
-    /// Curvature in 1/m that errors are compared with.
+    /// Scale of errors of the curvature in 1/m.
     pub(crate) scale: f64,
-    /// Of a body: area in m² at which its element is full, and whether the step may go on then.
+    /// Of a filling pore: area in m² at which its element is full, and whether the step may continue then.
     pub(crate) full: Option<f64>,
     pub(crate) passes: bool,
-    /// Laws of the menisci that wait to enter the element of a body: what they sweep is in it too.
+    /// Of a filling pore: laws of the menisci at the gates of its element, whose swept areas count too.
     pub(crate) entering: Vec<usize>,
 }
 
 impl Known {
-    /// What menisci that wait to enter the element of a body have swept in the step, in m², with areas by law.
+    /// Area in m² swept during the step by the menisci at the gates of a filling pore, with areas by law.
     pub(crate) fn swept(&self, law: usize, area: &impl Fn(usize) -> f64) -> f64 {
         let swept = |&entering: &usize| area(entering).max(0.0) - self.laws[entering].area.max(0.0);
         self.laws[law].entering.iter().map(swept).sum()
     }
 }
 
-/// Longest time to fill an element, over the length of the step before, where a step may go on when it is full.
+/// Longest time to fill an element, over the length of the last step, for a step to continue when it is full.
 const QUICK: f64 = 0.2;
 
 impl Dynamic {
-    /// What a step begins with.
+    /// The data of the next step.
     pub(super) fn known(&self, graph: &Graph) -> Known {
         let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
         let open = self.open_fillings();
@@ -89,7 +89,7 @@ impl Dynamic {
         }
     }
 
-    /// The bodies that menisci flow into, in the order of their links. A step may go on beyond a full element where that one alone is being filled, and quickly.
+    /// The filling pores in the order of their links. A step may continue past a full element if that alone is filling, and quickly.
     fn bodies_with_links(&self, graph: &Graph, drops: &[(f64, f64)], open: &[usize]) -> Vec<FillingPore> {
         let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
         let with_link = |(link, &(resistance, _)): (&Link, &(f64, f64))| {
@@ -113,7 +113,7 @@ impl Dynamic {
         graph.links.iter().zip(drops).filter_map(with_link).collect()
     }
 
-    /// The law of a link that resists by a curvature.
+    /// The capillary law of a link, if it has one.
     fn law(&self, filling_pores: &[FillingPore], index: usize, link: &Link) -> Option<CapillaryLaw> {
         match link.way {
             Way::Meniscus((gate, end)) => {
@@ -152,7 +152,7 @@ impl Dynamic {
         }
     }
 
-    /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
+    /// Rate in m²/s at which menisci past their events would fill an element, driven by their curvature at the event.
     fn filling_rate(&self, graph: &Graph, filling_pore: &FillingPore, resistance: f64) -> f64 {
         let now = filling_pore.curve.curvature(filling_pore.area);
         let rate = |&(gate, end): &FrontId| {

@@ -1,4 +1,4 @@
-//! The measures, the events and the diagrams of a displacement in time.
+//! Measures, events and diagrams of a dynamic displacement.
 
 use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
@@ -110,7 +110,7 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
     found
 }
 
-/// A warning where menisci are so fast that they leave films of the wetting phase on floor and lid, which the network has not.
+/// A warning if menisci are fast enough to leave films of the wetting phase on floor and lid, which the network neglects.
 pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
     let config = &model.quasi_static.config;
     let depth = config.depth_met_by(model.invading).filter(|_| model.invading == FluidPhase::NonWetting)?;
@@ -149,7 +149,7 @@ pub(crate) fn events(model: &DynamicModel) -> Table {
     }
 }
 
-/// Pressure difference and saturation over what was injected.
+/// Pressure difference over saturation.
 pub(crate) fn diagrams(model: &DynamicModel) -> Vec<Diagram> {
     let history = model.dynamic.history();
     let points =

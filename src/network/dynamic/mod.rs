@@ -1,23 +1,39 @@
-//! Dynamic displacement: two incompressible fluids, viscous flow through throats, and menisci that hold area.
-//!
-//! Each part of the pore space between at most three walls (an element) holds one phase or is being filled. One pressure p belongs to each
-//! phase of each region. Flows through throats are q = Δp/R, with the resistance R = μ₁ r₁ + μ₂ r₂ of both halves of the throat. A meniscus
-//! e between the invading and the defending phase has swept the area v_e since the chord of its gate and resists with σ k_e(v_e), exact for
-//! the walls (`curve.rs`):
-//!
-//! R q = p_i − p_j − σ k_e(v_e),  dv_e/dt = q.
-//!
-//! Where it reaches its event (burst, touch, or overlap with its neighbor) it lets the invading phase into the element ahead, which fills
-//! against the curvature of a body in it, cos θ/R_j, until its area is full; then menisci wait in its other gates. Time goes by backward
-//! Euler, so that each step is one graph Laplacian, symmetric and positive definite however long the step is; a step ends at the next event.
-//! Areas change by what flows only, so that both phases are conserved, and what cannot flow out is trapped by that alone.
+//! Dynamic displacement: two incompressible phases, viscous flow through throats, and menisci as capacitors.
 //!
 //! After the moving capacitors of Primkulov et al. (2019, 2021) with the events of Cieplak and Robbins (1988, 1990).
 //!
-//! An element that is open at the outlet never closes the way of the phase that is displaced: what comes into it leaves once it touches the
-//! side (`open.rs`).
+//! An element is a part of the pore space between at most three walls; it holds one phase or is filling. A node is a set of adjoining
+//! elements of one region that hold the same phase, with one pressure p; a link carries the flow q between two nodes. A throat resists with
+//! R = μ₁ r₁ + μ₂ r₂ (its two halves), and a meniscus in it that has swept the area v since the chord of its gate with σ κ(v), where the
+//! curvature κ is exact for the walls (`capillary_curve.rs`) and includes that by floor and lid:
 //!
-//! Left out: an element that is full stays so (no snap-off, no way back through a throat), films, inertia, the speed's effect on angles.
+//! R q = p_i − p_j − σ κ(v),  dv/dt = q,  and in each node outflow − inflow = source.
+//!
+//! One step of [`Dynamic::advance`], by backward Euler with a step Δt that ends at the next event:
+//!
+//! 1. Process all events that are due (`process_events`).
+//! 2. After an event, assemble nodes and links again (`current_graph`, `graph`). At a given rate, stop if no path connects inlet and outlet.
+//! 3. Bound Δt by the injected area (`longest_step`) and the time requested.
+//! 4. Collect what is constant during the step (`known`): resistances and driving pressures (`drop_without_rise`), the curve κ(v) of each
+//!    meniscus and of each filling element (`law`), sources, and event functions, which fall to 0 at an event (`ends_of_step`, `value_of`).
+//! 5. Find Δt together with p and q (`trial_along`). In each iteration:
+//!    1. Linearize about areas a: with v before the step, a link has the conductance 1/(R + σ κ′(a) Δt) and the pressure jump
+//!       −σ (κ(a) + κ′(a) (v − a)) (`conductors`).
+//!    2. With one Cholesky factorization, solve for p, q and their derivatives with respect to Δt (`path`).
+//!    3. Find the smallest Δt at which an event function is 0 (`first_along`); accept it if κ and p agree with the linearization (`accepted`).
+//!    4. Otherwise find the next Δt with areas in equilibrium with the pressures (`equilibrium_area`, `filling`, `first_along`), limit the
+//!       change of pressures by a line search (`damp`), and take the areas in equilibrium with them as the next a.
+//! 6. If that does not converge, bracket Δt (`trial_between`, `estimate`), with Newton's method and a line search at each (`trial`, `least_work`).
+//! 7. Add q Δt to the swept area of each meniscus, or, past its event, to the element that it fills (`commit`).
+//! 8. Process the events that are due, bursts, touches and overlaps last and by rising curvature (`process_events`): a full element gets
+//!    menisci in its other gates, at the same total area (`complete`); menisci together cover an element and enter it (`cover`); a meniscus
+//!    touches the outlet (`leave`); one bursts, touches or overlaps and enters the element ahead (`pass`), which then fills at the curvature
+//!    cos θ/R_j of its largest inscribed circle, or that of the event if it is smaller (`begin_filling`).
+//!
+//! Areas change by flow only, so both phases are conserved, and trapping needs no rule of its own. An element open at the outlet stays open
+//! to the defending phase: the invading phase leaves it once its meniscus touches the side (`open.rs`).
+//!
+//! Left out: snap-off and retreat through a throat (a full element stays full), films, inertia, dynamic contact angles.
 
 mod capillary_curve;
 mod conductors;
@@ -51,35 +67,35 @@ use crate::interface::menisci::Passage;
 /// A meniscus in a gate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Meniscus {
-    /// Area in m² that it has swept since the chord of the gate.
+    /// Area in m² swept since the chord of the gate.
     area: f64,
-    /// Whether it has passed its event; its area is then that of the element ahead, but for one at the outlet.
+    /// Whether it has passed its event; its area then belongs to the element ahead, except at the outlet.
     has_burst: bool,
-    /// Whether it has touched the outlet: what it gains leaves.
+    /// Whether it has touched the outlet: further inflow leaves.
     has_left: bool,
 }
 
 /// An element that is being filled.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Filling {
-    /// Area in m² that came in through menisci that have burst.
+    /// Area in m² that entered through menisci past their events.
     area: f64,
-    /// Curvature in 1/m of the body of invading phase in it.
+    /// Curvature in 1/m of the invading phase in it.
     curvature: f64,
-    /// Whether it lies between two menisci that have met around a grain.
+    /// Whether it lies between two menisci that have merged around a grain.
     is_joined: bool,
 }
 
-/// One event that took place.
+/// An event.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Occurrence {
     /// Time in s.
     pub time: f64,
-    /// What happened.
+    /// Its type.
     pub kind: EventKind,
-    /// The throat that was passed, an index into those of the network.
+    /// Index in the network of the throat that was passed.
     pub throat: Option<usize>,
-    /// Curvature of the meniscus in 1/m, above 0 where it bulges into the defending phase.
+    /// Curvature of the meniscus in 1/m, positive if it bulges into the defending phase.
     pub curvature: f64,
     /// Saturation of the invading phase.
     pub saturation: f64,
@@ -87,7 +103,7 @@ pub struct Occurrence {
     pub pressure: f64,
 }
 
-/// What happened when the invading phase reached the outlet.
+/// Breakthrough of the invading phase at the outlet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Breakthrough {
     /// Time in s.
@@ -98,7 +114,7 @@ pub struct Breakthrough {
     pub pressure: f64,
 }
 
-/// All that the future depends on.
+/// The state that checkpoints store.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct State {
     time: f64,
@@ -109,9 +125,9 @@ struct State {
     filling: Vec<Option<Filling>>,
     /// Elements in the order in which they became full.
     completed: Vec<usize>,
-    /// Area in m² of the invading phase that found no room where an element became full.
+    /// Area in m² of the invading phase in excess of full elements and their menisci.
     excess: f64,
-    /// Areas in m² that came in and went out by phase: invading in, invading out, defending out.
+    /// Cumulative areas in m²: inflow of the invading phase, outflow of the invading and of the defending phase.
     passed: [f64; 3],
     history: Vec<Occurrence>,
     invasions: Vec<Option<Invasion>>,
@@ -119,7 +135,7 @@ struct State {
     /// Pressure at the inlet less that at the outlet in Pa, and flow into the inlet in m²/s, in the last step.
     pressure: f64,
     inflow: f64,
-    /// Lengths in s of the last steps to an event of a meniscus and to an element that is full.
+    /// Lengths in s of the last steps that ended at an event of a meniscus and at a full element.
     last_steps: [f64; 2],
     solves: u64,
 }
@@ -129,9 +145,9 @@ struct State {
 pub enum StepEnd {
     /// At an event.
     Event,
-    /// At the time asked for, or at the largest step.
+    /// At the time asked for or the longest step.
     Time,
-    /// Nothing can flow: the injected fluid has nowhere to go.
+    /// No flow is possible: no path leads from the inlet to the outlet.
     Closed,
 }
 
@@ -142,23 +158,23 @@ pub struct Dynamic {
     network: Arc<Network>,
     terms: Terms,
     gates: Vec<GateFacts>,
-    /// Openings with their elements.
+    /// Opening and its element.
     openings: Vec<(usize, usize)>,
     /// In 1/m².
     resistances: Vec<[f64; 2]>,
     opening_resistances: Vec<f64>,
     pore_area: f64,
-    /// Area of the invading phase at the beginning.
+    /// Initial area in m² of the invading phase.
     first_area: f64,
     curves: Vec<[Option<Arc<CapillaryCurve>>; 2]>,
-    /// Of elements that are being filled: menisci that may wait in their gates once they are full.
+    /// Of filling elements: menisci that may form in their gates once they are full.
     ahead: Vec<Vec<(FrontId, CapillaryCurve)>>,
     advances: Vec<Advance>,
-    /// Overlaps of menisci that will wait ahead of elements that are being filled.
+    /// Overlaps of menisci that will form when filling elements are full.
     meetings_to_come: Vec<Advance>,
     /// By element: whether it is open at the outlet and not at the inlet.
     is_outlet: Vec<bool>,
-    /// By element: whether it is open at the inlet and was not full at the beginning.
+    /// By element: whether it is open at the inlet and was not full initially.
     is_inlet: Vec<bool>,
     /// By gate and end: where menisci touch the outlet.
     reaches: Vec<[Option<Reach>; 2]>,
@@ -167,8 +183,8 @@ pub struct Dynamic {
 }
 
 impl Dynamic {
-    /// The pore space full of the defending phase, except the elements that are open at an inlet, with flat menisci in their gates. The
-    /// displacement must be at its beginning, without trapping.
+    /// The pore space full of the defending phase, except elements open at an inlet, which have flat menisci in their gates. The displacement
+    /// must be in its initial state, without trapping.
     pub fn new(network: Arc<Network>, displacement: Displacement, terms: Terms) -> Self {
         let elements = displacement.elements().len();
         let gates = displacement.gates();
@@ -223,7 +239,7 @@ impl Dynamic {
         }
     }
 
-    /// Takes up a saved state: elements are filled anew in their order, so that the same menisci wait for the same events.
+    /// Restores a saved state: elements are filled again in the same order, so that the same menisci have the same events.
     fn restore(&mut self, state: State) -> Result<(), String> {
         let elements = self.state.filling.len();
         let counts = [
@@ -258,7 +274,7 @@ impl Dynamic {
         )
     }
 
-    /// Elements, gates, and the phases of the elements that are full.
+    /// Elements, gates, and phases of full elements.
     pub fn displacement(&self) -> &Displacement {
         &self.displacement
     }
@@ -278,7 +294,7 @@ impl Dynamic {
         &self.state.history
     }
 
-    /// When the elements began to be filled; `applied` is the curvature of the meniscus that let the invading phase in.
+    /// When each element began to fill; `applied` is the curvature of the meniscus that entered it.
     pub fn invasions(&self) -> &[Option<Invasion>] {
         &self.state.invasions
     }
@@ -288,7 +304,7 @@ impl Dynamic {
         self.state.breakthrough
     }
 
-    /// Saturation of the invading phase at the beginning.
+    /// Initial saturation of the invading phase.
     pub(crate) fn first_saturation(&self) -> f64 {
         self.first_area / self.pore_area
     }
@@ -302,19 +318,19 @@ impl Dynamic {
         self.displacement.phase(element) == Phase::Invading
     }
 
-    /// Area in m² of the invading phase in an element that is being filled.
+    /// Area in m² of the invading phase in a filling element.
     fn filled_area(&self, element: usize, filling: &Filling) -> f64 {
         filling.area + self.entering(element).map(|(_, meniscus)| meniscus.area).sum::<f64>()
     }
 
-    /// The menisci that wait to enter an element.
+    /// The menisci at the gates of an element that have not yet entered it.
     fn entering(&self, element: usize) -> impl Iterator<Item = (FrontId, Meniscus)> + '_ {
         let fronts = self.displacement.gates_of(element).iter().copied();
         let meniscus = |front: FrontId| self.state.menisci[front.0][front.1].map(|meniscus| (front, meniscus));
         fronts.filter_map(meniscus).filter(|(_, meniscus)| !meniscus.has_burst)
     }
 
-    /// Share of an element that the invading phase holds: 1 where it is full, above 0 where it is being filled or a meniscus bulges into it.
+    /// Saturation of the invading phase in an element: 1 if full, above 0 if it is filling or a meniscus bulges into it.
     pub(crate) fn share(&self, element: usize) -> f64 {
         if self.is_invaded(element) {
             return 1.0;
@@ -325,7 +341,7 @@ impl Dynamic {
         ((came + waiting + self.passed_in_outlet(element)) / area).clamp(0.0, 1.0)
     }
 
-    /// Area in m² that the invading phase holds.
+    /// Area in m² of the invading phase.
     pub fn invading_area(&self) -> f64 {
         let elements = self.displacement.elements().iter().enumerate();
         let full: f64 = elements.filter(|(index, _)| self.is_invaded(*index)).map(|(_, element)| element.area).sum();
@@ -335,7 +351,7 @@ impl Dynamic {
         full + filling + menisci.map(|meniscus| meniscus.area).sum::<f64>() + outlet + self.state.excess
     }
 
-    /// What the invading phase gained less what flowed in and out, over what it holds: an error of the program.
+    /// Relative error of the area balance: gain of the invading phase less its net inflow, over its area. Nonzero only by rounding.
     pub fn balance_error(&self) -> f64 {
         let [inflow, outflow, _] = self.state.passed;
         let area = self.invading_area();
@@ -348,7 +364,7 @@ impl Dynamic {
         self.arcs().map(|arc| arc.points(POINTS)).collect()
     }
 
-    /// The menisci that wait.
+    /// The menisci before their events.
     fn arcs(&self) -> impl Iterator<Item = crate::interface::menisci::Meniscus> + '_ {
         self.displacement.waiting().filter_map(|front| {
             let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
@@ -358,12 +374,12 @@ impl Dynamic {
         })
     }
 
-    /// For each element whether it holds the defending phase and no other element that does leads on to an outlet.
+    /// For each element, whether it holds the defending phase without a path to an outlet through this phase.
     pub fn trapped(&self) -> Vec<bool> {
         self.trapped_once_full(None)
     }
 
-    /// The same once one more element is full.
+    /// The same, once element `full` is full too.
     fn trapped_once_full(&self, full: Option<usize>) -> Vec<bool> {
         let is_invaded = |element: usize| self.is_invaded(element) || full == Some(element);
         let count = self.state.filling.len();

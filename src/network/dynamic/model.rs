@@ -1,4 +1,4 @@
-//! A displacement in time as its writers read it.
+//! A dynamic displacement with its network, for output.
 
 use super::Dynamic;
 use crate::network::cycles::{FluidPhase, Invasion};
@@ -7,26 +7,26 @@ use crate::network::occupation::Occupation;
 
 /// A network and the displacement in it.
 pub(crate) struct DynamicModel {
-    /// The network, with nothing displaced.
+    /// The network, without a displacement.
     pub(crate) quasi_static: Model,
     /// The displacement.
     pub(crate) dynamic: Dynamic,
-    /// The phase that comes in.
+    /// The invading phase.
     pub(crate) invading: FluidPhase,
 }
 
 impl DynamicModel {
-    /// Pore volumes of the invading phase that have passed the inlet.
+    /// Pore volumes injected.
     pub(crate) fn injected(&self) -> f64 {
         self.dynamic.state.passed[0] / self.dynamic.pore_area
     }
 
-    /// Share of the pore space that the invading phase holds.
+    /// Saturation of the invading phase.
     pub(crate) fn saturation(&self) -> f64 {
         self.dynamic.invading_area() / self.dynamic.pore_area
     }
 
-    /// μ U/σ with the viscosity of the invading phase and the flow into the inlet over the length of its side.
+    /// Capillary number μ U/σ: viscosity of the invading phase, U the inflow over the length of the inlet side.
     pub(crate) fn capillary_number(&self) -> f64 {
         let (_, inflow) = self.dynamic.drive_now();
         let terms = self.dynamic.terms();

@@ -1,7 +1,7 @@
-//! Pores at open sides: those at the inlet that are being filled, and the invading phase on its way through those at the outlet.
+//! Pores at open sides: filling pores at the inlet, and the invading phase between throat and outlet side.
 //!
-//! A meniscus that has passed its event into a pore at the outlet goes on along its walls until it touches the side, and there the invading
-//! phase leaves. Until then it resists with the curvature at which it touches.
+//! A meniscus past its event in a pore at the outlet advances along the walls until it touches the outlet side, where the invading phase
+//! leaves. Until then it has the curvature at which it touches.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::network::cycles::Invasion;
 use crate::network::displacement::FrontId;
 
 impl Dynamic {
-    /// Elements that hold the defending phase and are open at given sides.
+    /// Whether each element holds the defending phase and is open at given sides.
     pub(super) fn defending_at(&self, sides: [bool; 4]) -> Vec<bool> {
         let mut found = vec![false; self.displacement.elements().len()];
         for &(opening, element) in &self.openings {
@@ -40,7 +40,7 @@ impl Dynamic {
         let touches =
             lines.filter_map(|line| passage.reach(&line)).map(|found| (passage.swept_area(&found), found.curvature));
         let (area, curvature) = touches.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        // More than the element holds is never swept in it.
+        // The swept area never exceeds that of the element.
         let most = self.displacement.elements()[element].area.max(event);
         let curve = CapillaryCurve::level([event, event + most], curvature.min(own), self.gates[front.0].width);
         Some(Reach { area, curve: Arc::new(curve.between(|curvature| self.terms.with_depth(curvature))) })
@@ -60,19 +60,19 @@ impl Dynamic {
         })
     }
 
-    /// What resists a meniscus that is on its way to the outlet.
+    /// A meniscus past its event that has not yet touched the outlet, with its capillary curve.
     pub(super) fn on_its_way(&self, (gate, end): FrontId) -> Option<(Meniscus, &Reach)> {
         let meniscus = self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst && !meniscus.has_left)?;
         Some((meniscus, self.reaches[gate][end].as_ref()?))
     }
 
-    /// The menisci on their way through an element at the outlet.
+    /// All menisci past their events that have not yet touched the outlet.
     pub(super) fn all_on_their_way(&self) -> Vec<FrontId> {
         let gates = (0..self.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]);
         gates.filter(|&front| self.on_its_way(front).is_some()).collect()
     }
 
-    /// Area in m² that is missing until a meniscus touches the outlet, or until the invading phase has all of the element, with areas by front.
+    /// Area in m² left until a meniscus touches the outlet or the element is full, with areas by front.
     pub(super) fn missing_to_outlet(&self, front: FrontId, area: impl Fn(FrontId) -> f64) -> f64 {
         let element = self.ahead_of(front);
         let reach = self.reaches[front.0][front.1].as_ref().map_or(0.0, |reach| reach.area);
@@ -86,7 +86,7 @@ impl Dynamic {
         gates.filter(|(gate, end)| self.state.menisci[*gate][*end].is_some()).map(|&front| area(front)).sum()
     }
 
-    /// Area in m² of menisci that have passed their events in an element at the outlet.
+    /// Area in m² of menisci past their events in an element at the outlet.
     pub(super) fn passed_in_outlet(&self, element: usize) -> f64 {
         if !self.is_outlet[element] {
             return 0.0;
@@ -96,7 +96,7 @@ impl Dynamic {
         menisci.filter(|meniscus| meniscus.has_burst).map(|meniscus| meniscus.area).sum()
     }
 
-    /// A meniscus touches the outlet: what it gains from now on leaves.
+    /// A meniscus touches the outlet: further inflow leaves.
     pub(super) fn leave(&mut self, (gate, end): FrontId) {
         if let Some(meniscus) = &mut self.state.menisci[gate][end] {
             meniscus.has_left = true;
@@ -111,17 +111,17 @@ impl Dynamic {
         }
     }
 
-    /// The same displacement with a share of the pore space that the invading phase holds at the beginning, in the elements that are open at the inlet
-    /// and by the same part of each; the displacement must have begun without them.
+    /// The same displacement with an initial saturation `share` of the invading phase, in the elements open at the inlet and equal in each;
+    /// the displacement must have been created without these.
     ///
     /// # Errors
-    /// Their share of the pore space where it is less.
+    /// Their share of the pore space if it is less than `share`.
     pub fn beginning_with(mut self, share: f64) -> Result<Self, f64> {
         self.is_inlet = self.defending_at(self.terms.inlet);
         let elements: Vec<usize> = (0..self.is_inlet.len()).filter(|&element| self.is_inlet[element]).collect();
         let area_of = |element: usize| self.displacement.elements()[element].area;
         let most = elements.iter().map(|&element| area_of(element)).sum::<f64>() / self.pore_area;
-        // NaN where no pore is open.
+        // NaN if no pore is open.
         if !(share <= most) {
             return Err(most);
         }

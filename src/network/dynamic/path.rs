@@ -1,8 +1,8 @@
-//! A step straight to its event: Newton's method with the length of the step as one more unknown.
+//! A step directly to its event: Newton's method with the step length as an additional unknown.
 //!
-//! About areas by law, flows and pressures are linear, and so is their change with the length of the step. At a low rate the pressures
-//! of a cluster are those of its menisci, whatever the length, so that the first event follows from how pressures change, and the length
-//! from the areas at these pressures. Each round linearizes about the areas that menisci have in equilibrium with the pressures at the event.
+//! Linearized about given areas, flows and pressures are linear in the step length to first order. At a low rate the pressures of a
+//! cluster are those of its menisci, whatever the length, so the first event follows from the change of pressures, and the length from the
+//! areas at these pressures. Each iteration linearizes about the areas of menisci in equilibrium with the pressures at the event.
 
 use super::Dynamic;
 use super::graph::Graph;
@@ -10,33 +10,33 @@ use super::known::{CapillaryLaw, Known};
 use super::step::{MATCHED, Trial};
 use crate::network::laplacian::{Factored, Flow, FlowError};
 
-/// Most rounds.
+/// Maximum number of iterations.
 const ROUNDS: i32 = 16;
-/// Longest and shortest next length over the present one: far at first, then nearer from round to round, so that rounds do not cycle.
+/// Largest ratio of consecutive lengths at first and at last; it shrinks from iteration to iteration to avoid cycles.
 const FAR: f64 = 30.0;
 const NEAR: f64 = 1.5;
-/// Rounds that may go far.
+/// Iterations with the largest ratio.
 const FREE: i32 = 3;
-/// Relative error of the length at which an event is sought along a path.
+/// Relative tolerance of the length at an event along a path.
 const EXACT: f64 = 1e-9;
 
-/// Flows and pressure drops about one length of a step, linear in the length.
+/// Flows and pressure drops, linear in the step length about `dt`.
 struct Path<'a> {
     dt: f64,
     flow: Flow,
     rates: Flow,
-    /// By link: pressure drop in Pa, and its change with the length in Pa/s.
+    /// By link: pressure drop in Pa and its derivative with respect to the length in Pa/s.
     drops: Vec<(f64, f64)>,
     factored: Factored<'a>,
 }
 
 impl Path<'_> {
-    /// What passes a link in m² in a step of the length `dt` in s.
+    /// Area in m² that passes a link in a step of the length `dt` in s.
     fn passed(&self, link: usize, dt: f64) -> f64 {
         self.flow.through[link] * self.dt + self.rate(link) * (dt - self.dt)
     }
 
-    /// Its change with the length in m²/s.
+    /// Its derivative with respect to the length in m²/s.
     fn rate(&self, link: usize) -> f64 {
         self.flow.through[link] + self.dt * self.rates.through[link]
     }
@@ -53,14 +53,14 @@ impl Path<'_> {
     }
 }
 
-/// Pressures in Pa: drops by link, and that of the inlet where a rate is given.
+/// Pressure drops in Pa by link, and the inlet pressure in Pa if a rate is given.
 struct Pressures {
     drops: Vec<f64>,
     inlet: f64,
 }
 
 impl Dynamic {
-    /// The step to the first event, or of the length `longest` in s where there is none before; none where it is not found soon.
+    /// The step to the first event, or of the length `longest` in s if there is none before; `None` without convergence.
     pub(super) fn trial_along(
         &mut self,
         graph: &Graph,
@@ -80,11 +80,11 @@ impl Dynamic {
             if let Some(trial) = self.accepted(graph, known, &path, end, longest)? {
                 return Ok(Some(trial));
             }
-            let standing = |law: usize, dt: f64| {
-                let stands = self.standing(known, law, path.drop(known.laws[law].link, dt), dt);
-                self.filling(known, &path, law, [stands, about[law], dt])
+            let at_equilibrium = |law: usize, dt: f64| {
+                let equilibrium = self.equilibrium_area(known, law, path.drop(known.laws[law].link, dt), dt);
+                self.filling(known, &path, law, [equilibrium, about[law], dt])
             };
-            dt = self.first_along(graph, known, range, standing);
+            dt = self.first_along(graph, known, range, at_equilibrium);
             let mut next = Pressures {
                 drops: (0..known.drops.len()).map(|link| path.drop(link, dt)).collect(),
                 inlet: graph.inlet.map_or(0.0, |inlet| path.pressure(inlet, dt)),
@@ -93,23 +93,23 @@ impl Dynamic {
                 next = self.damp(known, [before, &next], dt).unwrap_or(next);
             }
             about = (0..known.laws.len())
-                .map(|law| self.standing(known, law, next.drops[known.laws[law].link], dt))
+                .map(|law| self.equilibrium_area(known, law, next.drops[known.laws[law].link], dt))
                 .collect();
             before = Some(next);
         }
         Ok(None)
     }
 
-    /// The area in m² at which a law stands at the end of a step of the length `dt` in s under a pressure drop in Pa.
-    fn standing(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
+    /// The area in m² of a law at the end of a step of the length `dt` in s, in equilibrium with a pressure drop in Pa.
+    fn equilibrium_area(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
         let (law, tension) = (&known.laws[law], self.terms.tension);
         law.curve.standing(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
     }
 
-    /// The same of a body whose element is not full: what flows into it in a time d is a d/(1 + b d) where one relaxation rules.
-    fn filling(&self, known: &Known, path: &Path, law: usize, [stands, about, dt]: [f64; 3]) -> f64 {
+    /// The same for a filling element that is not full: with one relaxation time, the inflow during a time d is a d/(1 + b d).
+    fn filling(&self, known: &Known, path: &Path, law: usize, [equilibrium, about, dt]: [f64; 3]) -> f64 {
         let law = &known.laws[law];
-        let Some(full) = law.full.filter(|&full| !law.passes || about < full) else { return stands };
+        let Some(full) = law.full.filter(|&full| !law.passes || about < full) else { return equilibrium };
         let (passed, rate) = (path.passed(law.link, path.dt), path.rate(law.link));
         let share = rate * path.dt / passed;
         let found = if share > 0.0 && share < 1.0 && passed > 0.0 {
@@ -119,14 +119,14 @@ impl Dynamic {
         } else {
             law.area + path.passed(law.link, dt)
         };
-        if law.passes && found >= full { stands.max(full) } else { found }
+        if law.passes && found >= full { equilibrium.max(full) } else { found }
     }
 
-    /// Goes no further from some pressures to others than to where they fit flows best: to the largest value of the concave function of
-    /// pressures whose derivatives are what is left over in the nodes.
+    /// Line search between two sets of pressures: maximizes the concave dual function, whose derivatives are the residuals of the nodes.
+    /// `None` if its maximum does not lie in between.
     fn damp(&self, known: &Known, [from, to]: [&Pressures; 2], dt: f64) -> Option<Pressures> {
         let change = |link: usize| to.drops[link] - from.drops[link];
-        // The change of the function along the way is linear but for the laws.
+        // Its derivative along the line is linear except for the capillary laws.
         let (mut level, mut rise) = (-(to.inlet - from.inlet) * known.sources.iter().sum::<f64>() * dt, 0.0);
         for (link, (resistance, drop)) in
             known.drops.iter().enumerate().filter(|(link, _)| known.law_of[*link].is_none())
@@ -137,7 +137,7 @@ impl Dynamic {
         let left = |share: f64| {
             let laws = known.laws.iter().enumerate().map(|(index, law)| {
                 let drop = from.drops[law.link] + share * change(law.link);
-                change(law.link) * (self.standing(known, index, drop, dt) - law.area)
+                change(law.link) * (self.equilibrium_area(known, index, drop, dt) - law.area)
             });
             level + share * rise + laws.sum::<f64>()
         };
@@ -161,7 +161,7 @@ impl Dynamic {
             changes[law.link] = -self.terms.tension * law.curve.resistance(about).1 * flow.through[law.link];
         }
         let rates = factored.solve(&changes, &vec![0.0; graph.nodes])?;
-        // Where a curvature resists much, flows say little about it, and where a throat resists little, pressures say little about the flow.
+        // With a stiff capillary law the drop is inaccurate from flows, with a small resistance from pressures.
         let drop = |link: usize| {
             let conductance = factored.conductances()[link];
             match known.law_of[link] {
@@ -173,7 +173,7 @@ impl Dynamic {
         Ok(Path { dt, flow, rates, drops, factored })
     }
 
-    /// The length in s at which the first goal is reached, within a range, with areas by law and length.
+    /// The length in s at the first zero of an event function within a range, with areas by law and length.
     fn first_along(
         &self,
         graph: &Graph,
@@ -202,8 +202,7 @@ impl Dynamic {
         first
     }
 
-    /// The step of the length `dt` in s along a path, where it is one to an event or of the length `longest`, and curvatures and pressures
-    /// agree.
+    /// The step of the length `dt` in s along a path, if it ends at an event or has the length `longest`, and the linearization is accurate.
     fn accepted(
         &self,
         graph: &Graph,
@@ -242,7 +241,7 @@ impl Dynamic {
     }
 }
 
-/// A root between two places with values above and below 0, by false position with the value of a place that stays halved (Illinois).
+/// A root between two points with values above and below 0, by the Illinois variant of regula falsi.
 fn root(value: impl Fn(f64) -> f64, [(mut low, mut above), (mut high, mut below)]: [(f64, f64); 2], exact: f64) -> f64 {
     const ROUNDS: usize = 60;
     let mut side = 0;

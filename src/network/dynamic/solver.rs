@@ -1,4 +1,4 @@
-//! A dynamic displacement as the simulation loop sees it. Its clock is the time in s; one step ends at an event or at a record.
+//! The [`Solver`] of a dynamic displacement. Its clock is the time in s; one step ends at an event or at a record.
 
 use std::time::Instant;
 
@@ -18,29 +18,29 @@ use crate::solver::{
     Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
 };
 
-/// Where a displacement in time ends before its last record.
+/// Conditions that end a dynamic displacement before its last record.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct End {
     /// When the invading phase reaches the outlet.
     pub at_breakthrough: bool,
-    /// When the invading phase fills this share of the pore space.
+    /// At this saturation of the invading phase.
     pub at_saturation: Option<f64>,
-    /// When so many pore volumes have passed the inlet.
+    /// When this number of pore volumes has been injected.
     pub at_injected: Option<f64>,
 }
 
-/// A network with a displacement in time.
+/// A network with a dynamic displacement.
 pub(crate) struct DynamicSolver {
     model: DynamicModel,
     end: End,
     is_closed: bool,
     steps_before: u64,
-    /// The times that extraction and displacement took, in s.
+    /// Wall times of extraction and displacement in s.
     seconds: [f64; 2],
 }
 
 impl DynamicSolver {
-    /// The displacement at its beginning.
+    /// A displacement in its initial state.
     pub(crate) fn new(quasi_static: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
         let NetworkSolver { model: quasi_static, seconds, .. } = quasi_static;
         Self {
@@ -52,17 +52,17 @@ impl DynamicSolver {
         }
     }
 
-    /// By element: the share of it that the invading phase holds.
+    /// By element: saturation of the invading phase.
     pub(crate) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.model.dynamic.displacement().elements().len()).map(|element| self.model.dynamic.share(element))
     }
 
-    /// The network, with nothing displaced.
+    /// The network, without a displacement.
     pub(crate) fn quasi_static(&self) -> &Model {
         &self.model.quasi_static
     }
 
-    /// The parts of the pore space.
+    /// The elements of the pore space.
     pub(crate) fn elements(&self) -> &[Element] {
         self.model.dynamic.displacement().elements()
     }
@@ -72,7 +72,7 @@ impl DynamicSolver {
         self.model.dynamic.breakthrough()
     }
 
-    /// The phase that comes in.
+    /// The invading phase.
     pub(crate) fn invading(&self) -> FluidPhase {
         self.model.invading
     }
@@ -110,7 +110,7 @@ impl Solver for DynamicSolver {
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let (clock, before) = (Instant::now(), self.model.dynamic.time());
-        // No further than what is to be injected.
+        // Not past the volume to be injected.
         let left = self.end.at_injected.map_or(f64::INFINITY, |end| end - self.model.injected());
         let until = match self.model.dynamic.terms().drive {
             Drive::Rate(rate) if left.is_finite() => until.min(before + left * self.model.dynamic.pore_area / rate),
@@ -201,7 +201,7 @@ impl Solver for DynamicSolver {
     }
 
     fn state(&self) -> Vec<u8> {
-        // Numbers and lists of them can always be encoded.
+        // Encoding numbers and lists cannot fail.
         postcard::to_stdvec(&self.model.dynamic.state).unwrap_or_default()
     }
 

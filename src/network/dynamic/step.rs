@@ -1,4 +1,4 @@
-//! A step: to the next event, or as far as it may go, by backward Euler.
+//! One step of backward Euler, to the next event or of the longest length allowed.
 
 use super::event_functions::{Areas, REACHED};
 use super::graph::{Graph, Link, Way};
@@ -7,12 +7,12 @@ use super::{Drive, Dynamic, StepEnd};
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::{Flow, FlowError};
 
-/// The end of a step of the length `dt` in s.
+/// Flows of a step of the length `dt` in s and event functions at its end.
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     pub(crate) dt: f64,
     pub(crate) flow: Flow,
-    /// What is missing until each goal, as a share of the whole way.
+    /// Event functions, dimensionless: above 0 before an event, 0 at it.
     pub(crate) values: Vec<f64>,
 }
 
@@ -21,28 +21,28 @@ impl Trial {
         self.values.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether it reaches a goal and passes none, or is as long as a step may be, `longest` in s.
+    /// Whether the step reaches an event and overshoots none, or has the length `longest` in s.
     pub(super) fn ends(&self, longest: f64) -> bool {
         let least = self.least_gap();
         least >= -REACHED && (least <= REACHED || self.dt >= longest)
     }
 }
 
-/// Most that passes the inlet in one step, over the mean area of an element: the order of events then changes little with shorter steps.
+/// Largest area injected in one step over the mean area of an element: the order of events then changes little with shorter steps.
 const LONGEST: f64 = 0.5;
-/// Least length that is taken for that of the next step, over that of the last one.
+/// Least remembered step length over the one remembered before.
 const SHORTER: f64 = 0.1;
-/// Largest difference between a curvature, or a pressure, at the end of a step and that which the step took, as a share of its range.
+/// Tolerance of curvatures and pressures at the end of a step from their linearization, relative to their range.
 pub(super) const MATCHED: f64 = 5e-3;
-/// Most rounds of Newton's method.
+/// Maximum number of Newton iterations.
 const ROUNDS: usize = 40;
-/// From this share on a step of Newton's method is done as a whole.
+/// From this fraction on, a full Newton step is taken.
 const WHOLE: f64 = 1.0 - 1e-6;
-/// Trials of one step.
+/// Maximum number of trial lengths of one step.
 const MOST_TRIALS: usize = 60;
 
 impl Dynamic {
-    /// Goes on to the next event, at most to the time `until` in s; does the event.
+    /// Advances to the next event, at most to the time `until` in s, and processes the event.
     pub fn advance(&mut self, until: f64) -> Result<StepEnd, FlowError> {
         self.process_events();
         let graph = self.current_graph()?;
@@ -50,13 +50,13 @@ impl Dynamic {
             self.graph = Some(graph);
             return Ok(StepEnd::Closed);
         }
-        let whole = until - self.state.time;
-        let longest = self.longest_step().min(whole);
+        let remaining = until - self.state.time;
+        let longest = self.longest_step().min(remaining);
         let trial = self.trial_to_event(&graph, longest)?;
-        let lands = trial.dt >= whole;
+        let reaches_end = trial.dt >= remaining;
         self.commit(&graph, &trial);
         self.graph = Some(graph);
-        if lands {
+        if reaches_end {
             self.state.time = until;
         }
         self.state.steps += 1;
@@ -68,7 +68,7 @@ impl Dynamic {
         (self.state.pressure, self.state.inflow)
     }
 
-    /// The conductors of the present state, found anew after an event.
+    /// The graph of the present state, assembled again after an event.
     pub(super) fn current_graph(&mut self) -> Result<Graph, FlowError> {
         if let Some(graph) = self.graph.take() {
             return Ok(graph);
@@ -77,7 +77,7 @@ impl Dynamic {
         self.graph()
     }
 
-    /// In s.
+    /// Longest step in s.
     fn longest_step(&self) -> f64 {
         let flow = match self.terms.drive {
             Drive::Rate(rate) => rate,
@@ -88,20 +88,20 @@ impl Dynamic {
         if longest.is_finite() { longest } else { f64::INFINITY }
     }
 
-    /// Resistance in Pa s/m² of a link, and the pressure drop along it in Pa without flow, but for what a law adds.
+    /// Viscous resistance in Pa s/m² of a link, and the pressure drop in Pa along it without flow and without its capillary law.
     pub(super) fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
         let drop = match (link.way, self.terms.drive) {
             (Way::Inlet, Drive::PressureDrop(pressure)) => pressure,
-            // What lies beyond the outlet is as deep, and menisci there are flat in the plane.
+            // Beyond the outlet the depth is the same, and menisci are flat in the plane.
             (Way::Outlet, _) if self.is_invaded(a) => self.terms.tension * self.terms.with_depth(0.0),
             _ => 0.0,
         };
         (resistance, drop)
     }
 
-    /// The links in a step of the length `dt` in s: conductances and jumps, with curvatures linear about areas by law.
+    /// Conductances in m²/(Pa s) and jumps in Pa of the links in a step of the length `dt` in s, capillary laws linearized about areas in m².
     pub(super) fn conductors(&self, known: &Known, about: &[f64], dt: f64) -> (Vec<f64>, Vec<f64>) {
         let tension = self.terms.tension;
         let mut conductances: Vec<f64> = known.drops.iter().map(|(resistance, _)| 1.0 / resistance).collect();
@@ -114,13 +114,13 @@ impl Dynamic {
         (conductances, jumps)
     }
 
-    /// What is missing until each goal where links hold areas, by law.
+    /// Event functions at given areas, by law.
     pub(super) fn values(&self, graph: &Graph, known: &Known, area: impl Fn(usize) -> f64) -> Vec<f64> {
         let at = self.areas(graph, known, &area);
         known.event_functions.iter().map(|function| self.value_of(&known.filling_pores, function, &at)).collect()
     }
 
-    /// Areas by law as those of menisci and bodies.
+    /// Areas by law as areas of menisci and filling elements.
     pub(super) fn areas<'a, A: Fn(usize) -> f64 + 'a>(
         &'a self,
         graph: &'a Graph,
@@ -136,9 +136,9 @@ impl Dynamic {
         }
     }
 
-    /// The step of the length `dt` in s: by Newton's method with an exact line search, beginning with the flows of another length.
+    /// The step of the length `dt` in s by Newton's method with an exact line search, starting from the flows of another length.
     ///
-    /// Its flows are those of least ½ Σ R q² dt + Σ σ ∫ k dv among all that balance in every node, a convex problem since curvatures rise.
+    /// Its flows minimize ½ Σ R q² dt + Σ σ ∫ κ dv among all that balance in every node, a convex problem since κ(v) rises.
     fn trial(&mut self, graph: &Graph, known: &Known, start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {
         let area = |law: &CapillaryLaw, through: &[f64]| self::area(law, through, dt);
         let mut through: Option<Vec<f64>> = start.map(|trial| trial.flow.through.clone());
@@ -173,11 +173,11 @@ impl Dynamic {
         Ok(Trial { dt, flow, values })
     }
 
-    /// The share of the way from some flows to others at which the work is least.
+    /// The line search between two sets of flows: the fraction of the Newton step that minimizes the work.
     fn least_work(&self, known: &Known, [from, to]: [&[f64]; 2], dt: f64) -> f64 {
         const HALVINGS: usize = 40;
         let tension = self.terms.tension;
-        // The pressure drops along the links times the change of flows.
+        // Derivative of the work: pressure drops along the links times the change of flows.
         let change = |share: f64| {
             let flow = |index: usize| from[index] + share * (to[index] - from[index]);
             let fixed = known
@@ -206,7 +206,7 @@ impl Dynamic {
         if high > WHOLE { 1.0 } else { low }
     }
 
-    /// The step to the first event, or of the length `longest` in s where there is none before.
+    /// The step to the first event, or of the length `longest` in s if there is none before.
     fn trial_to_event(&mut self, graph: &Graph, longest: f64) -> Result<Trial, FlowError> {
         let known = self.known(graph);
         let trial = match self.trial_along(graph, &known, longest)? {
@@ -217,7 +217,7 @@ impl Dynamic {
         Ok(trial)
     }
 
-    /// The same by a search with steps of given lengths.
+    /// The same by bracketing the length, with a nonlinear solve at each.
     fn trial_between(&mut self, graph: &Graph, known: &Known, longest: f64) -> Result<Trial, FlowError> {
         let first = self.values(graph, known, |law| known.laws[law].area);
         let (mut low, mut high) = (0.0, f64::INFINITY);
@@ -242,18 +242,18 @@ impl Dynamic {
             };
             before = Some(trial);
         }
-        // As far as no event is passed; what is beyond an event is carried on by the areas.
+        // Take the longest step before any event; an overshoot is conserved in the areas.
         let dt = if low > 0.0 { low } else { dt };
         self.trial(graph, known, before.as_ref(), dt)
     }
 
-    /// Length in s to begin with.
+    /// Initial guess of the step length in s.
     pub(super) fn first_length(&self, known: &Known, longest: f64) -> f64 {
         let guess = self.state.last_steps[usize::from(known.fills)];
         if guess > 0.0 { guess.min(longest) } else { longest }
     }
 
-    /// Notes the length of a step in s. Events that follow at once say little about the next one.
+    /// Remembers the length of a step in s, bounded below: simultaneous events say little about the next length.
     fn note_length(&mut self, known: &Known, dt: f64) {
         let last = &mut self.state.last_steps[usize::from(known.fills)];
         *last = dt.max(SHORTER * *last);
@@ -305,8 +305,8 @@ fn area(law: &CapillaryLaw, through: &[f64], dt: f64) -> f64 {
     law.area + through[law.link] * dt
 }
 
-/// The length in s of the step that reaches the first goal, by one or two trials. What a meniscus moves in a step of backward Euler is
-/// a d/(1 + b d) over its length d where one relaxation rules, so that reciprocals are on a line.
+/// Estimate in s of the step length to the first event, from one or two trials. With one relaxation time, a meniscus moves by a d/(1 + b d)
+/// in a backward Euler step of the length d, so 1/displacement is linear in 1/d.
 fn estimate(first: &[f64], before: Option<&Trial>, trial: &Trial) -> f64 {
     let mut found = f64::INFINITY;
     for (function, (&start, &value)) in first.iter().zip(&trial.values).enumerate() {

@@ -1,4 +1,4 @@
-//! Fluids, drive and depth of a displacement in time.
+//! Fluids, drive and depth of a dynamic displacement.
 
 use crate::case::FluidPhase;
 use crate::case::network::Drive;
@@ -11,20 +11,20 @@ pub struct Terms {
     pub viscosity: [f64; 2],
     /// Interfacial tension in N/m.
     pub tension: f64,
-    /// What drives it.
+    /// Given flow rate or pressure drop.
     pub drive: Drive,
-    /// Most pore volumes that pass the inlet in one step.
+    /// Largest number of pore volumes injected in one step.
     pub largest_step: f64,
-    /// Sides at which the invading phase comes in: left, right, bottom, top.
+    /// Sides at which the invading phase enters: left, right, bottom, top.
     pub inlet: [bool; 4],
     /// Sides at which both phases leave.
     pub outlet: [bool; 4],
-    /// The phase that invades, and floor and lid as it meets them; none in the plane.
+    /// The invading phase, and floor and lid with its contact angles; `None` in the plane.
     pub depth: Option<(FluidPhase, Depth)>,
 }
 
 impl Terms {
-    /// The pressure of the invading phase less that of the defending one, over the tension, at a meniscus of this curvature in the plane; both in 1/m.
+    /// Capillary pressure (invading less defending phase) over tension at a meniscus of a curvature in the plane; both in 1/m.
     pub(super) fn with_depth(&self, curvature: f64) -> f64 {
         self.depth.map_or(curvature, |(invading, depth)| {
             invading.towards_wetting(depth.curvature(invading.towards_wetting(curvature)))

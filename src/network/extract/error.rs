@@ -1,11 +1,11 @@
-//! What can keep a geometry from having a network.
+//! Errors of network extraction.
 
 use crate::math::Vec2;
 
 /// Why there is no network.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExtractError {
-    /// A side cannot be open.
+    /// A side that cannot be open.
     #[error(
         "the {side} side cannot be open: it is {}; make it neither, or choose another side",
         if *.is_periodic { "periodic" } else { "a wall" }
@@ -13,10 +13,10 @@ pub enum ExtractError {
     NotOpen {
         /// Name of the side.
         side: &'static str,
-        /// Whether it is periodic, else it is a wall.
+        /// Whether it is periodic; otherwise it is a wall.
         is_periodic: bool,
     },
-    /// There is no wall, so that there are neither pores nor throats.
+    /// No walls, hence neither pores nor throats.
     #[error(
         "no wall lies within the domain, which is all {}; a network needs solid and pore space",
         if *.is_solid { "solid" } else { "pore" }
@@ -34,7 +34,7 @@ pub enum ExtractError {
         /// Where, in m.
         at: Vec<Vec2>,
     },
-    /// The regions found are not one per maximum.
+    /// Regions and maxima do not correspond one to one.
     #[error(
         "no network was found that has one pore per region, near {}; shapes there may touch or nearly touch: let them overlap clearly or leave a gap",
         list(.places)
@@ -45,7 +45,7 @@ pub enum ExtractError {
     },
 }
 
-/// Some places as text.
+/// Some positions as text.
 fn list(at: &[Vec2]) -> String {
     const SHOWN: usize = 5;
     let shown: Vec<String> = at.iter().take(SHOWN).map(|x| format!("({:.6e}, {:.6e}) m", x.x, x.y)).collect();

@@ -1,7 +1,7 @@
-//! The boundaries of pore regions: along a wall to the next chord, across it, along the wall there, until the loop is closed.
+//! The boundaries of pore regions: along a wall to the next chord, across it, along the wall there, until the loop closes.
 //!
-//! Each stretch of wall between two chord ends belongs to one region, and each chord to two. Where a wall ends at an open side the loop follows
-//! the side to where the next wall begins. Loops run on base pieces and add up shifts, so that periodic domains need no images.
+//! Each stretch of wall between two chord ends belongs to one region, and each chord to two. From the end of a wall at an open side the loop
+//! follows the side to the start of the next wall. Loops are traced on base pieces with cumulative shifts, so periodic domains need no images.
 
 use crate::geometry::critical::opposite::Opposite;
 use crate::geometry::critical::shift::{Shift, minus, plus};
@@ -13,7 +13,7 @@ use crate::network::extract::sides::{Perimeter, SidePart};
 /// One step around a region, positions shifted by whole periods.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Step {
-    /// Along a piece of wall between two parameters; the second may pass 1 on a circle.
+    /// Along a piece of wall between two parameters; the second may exceed 1 on a circle.
     Wall { wall: usize, shift: Shift, from: f64, to: f64 },
     /// Across a chord, from its contact number `end` to the other one.
     Chord { throat: usize, end: usize, shift: Shift },
@@ -26,7 +26,7 @@ pub(super) enum Step {
 pub(super) struct Loop {
     /// Its steps in order.
     pub(crate) steps: Vec<Step>,
-    /// The shift between its end and its start; zero but for loops around a periodic domain.
+    /// The shift between its end and its start; zero except for loops around a periodic domain.
     pub(crate) winding: Shift,
 }
 
@@ -40,12 +40,12 @@ struct ChordEnd {
     angle: f64,
 }
 
-/// All loops, and which of them runs where.
+/// All loops, with their positions on walls.
 pub(super) struct Loops {
     /// The loops.
     pub(crate) loops: Vec<Loop>,
     ends: Vec<Vec<ChordEnd>>,
-    /// For each chord end of a wall: the loop that arrives there and the shift of the wall then.
+    /// For each chord end of a wall: the loop that arrives there, with the shift of the wall.
     arriving: Vec<Vec<(usize, Shift)>>,
     /// For each wall: the loop that passes its end.
     leaving: Vec<(usize, Shift)>,
@@ -72,10 +72,10 @@ impl Loops {
         for list in &mut ends {
             list.sort_by(|a, b| a.contact.u.total_cmp(&b.contact.u).then(a.angle.total_cmp(&b.angle)));
         }
-        let mut place = vec![[(NONE, NONE); 2]; saddles.len()];
+        let mut location = vec![[(NONE, NONE); 2]; saddles.len()];
         for (wall, list) in ends.iter().enumerate() {
             for (k, end) in list.iter().enumerate() {
-                place[end.throat][end.end] = (wall, k);
+                location[end.throat][end.end] = (wall, k);
             }
         }
         let arriving = ends.iter().map(|list| vec![(NONE, [0, 0]); list.len()]).collect();
@@ -83,14 +83,14 @@ impl Loops {
         for wall in 0..walls.walls.len() {
             for k in 0..all.ends[wall].len() {
                 if all.arriving[wall][k].0 == NONE {
-                    all.run(walls, saddles, perimeter, &place, (wall, Some(k)));
+                    all.run(walls, saddles, perimeter, &location, (wall, Some(k)));
                 }
             }
         }
         for wall in 0..walls.walls.len() {
             let is_circle_with_ends = walls.walls[wall].curve.is_closed() && !all.ends[wall].is_empty();
             if all.leaving[wall].0 == NONE && !is_circle_with_ends {
-                all.run(walls, saddles, perimeter, &place, (wall, None));
+                all.run(walls, saddles, perimeter, &location, (wall, None));
             }
         }
         for run in &perimeter.uncut {
@@ -99,11 +99,11 @@ impl Loops {
         all
     }
 
-    /// Adds a closed run along sides that no wall meets to the loop that is seen from it.
+    /// Adds a closed run along sides without walls to the loop of the nearest wall.
     fn add_uncut(&mut self, walls: &Walls, run: &[SidePart]) {
         let Some(x) = run.first().map(|part| part.from) else { return };
         let Some((distance, contact)) = walls.nearest(x) else { return };
-        // The segment to the nearest wall point crosses no chord, since chords are such segments themselves.
+        // The segment to the nearest wall point crosses no chord, as chords are such segments too.
         let v = x - contact.point;
         let is_wall = distance <= walls.tolerance;
         if is_wall || !walls.is_seen(&contact, v) {
@@ -117,18 +117,18 @@ impl Loops {
         ring.winding = plus(ring.winding, [0, 1].map(|i| (passed[i] / size[i]).round() as i32));
     }
 
-    /// Runs around the loop that arrives at a chord end, or passes the end of a wall.
+    /// Traces the loop that arrives at a chord end, or passes the end of a wall.
     fn run(
         &mut self,
         walls: &Walls,
         saddles: &[Opposite],
         perimeter: &Perimeter,
-        place: &[[(usize, usize); 2]],
+        location: &[[(usize, usize); 2]],
         first: (usize, Option<usize>),
     ) {
         let number = self.loops.len();
         let mut steps = Vec::new();
-        // Where the loop stands: on a wall, at a parameter, its image, and the number of the next chord end there.
+        // Current position: wall, parameter, image, and number of the next chord end there.
         let (mut wall, mut shift) = (first.0, [0, 0]);
         let mut next = first.1;
         let mut is_first = true;
@@ -143,7 +143,7 @@ impl Loops {
                     let by = minus(shift, here.contact.shift);
                     steps.push(Step::Chord { throat: here.throat, end: here.end, shift: by });
                     let there = saddles[here.throat].contacts[1 - here.end];
-                    let (other, k) = place[here.throat][1 - here.end];
+                    let (other, k) = location[here.throat][1 - here.end];
                     (wall, shift) = (other, plus(by, there.shift));
                     next = self.after(walls, wall, Some(k));
                     there.u
@@ -170,7 +170,7 @@ impl Loops {
         self.loops.push(Loop { steps, winding });
     }
 
-    /// The chord end on a wall that follows number `k`, or the first one; `None`: the end of the wall comes first.
+    /// The chord end on a wall after number `k`, or the first one; `None` if the end of the wall comes first.
     fn after(&self, walls: &Walls, wall: usize, k: Option<usize>) -> Option<usize> {
         let next = k.map_or(0, |k| k + 1);
         if next < self.ends[wall].len() {
@@ -191,8 +191,8 @@ impl Loops {
         }
     }
 
-    /// The loop that runs through a wall point which is seen from a place along `direction`, what is added to the shift of the point in the
-    /// frame of the loop, and how far (m) chord ends are.
+    /// The loop through a wall point visible from a position along `direction`, the additional shift of the point in the frame of the loop, and
+    /// the distance in m to chord ends.
     pub(crate) fn at(&self, walls: &Walls, contact: &Contact, direction: Vec2) -> Option<(usize, Shift, f64)> {
         let angle = fan_angle(walls, contact, -direction);
         let list = &self.ends[contact.wall];
@@ -217,7 +217,7 @@ impl Loops {
     }
 }
 
-/// The angle in rad, counter-clockwise, from where the fan of a vertex begins to a direction out of it; 0 within a piece.
+/// The angle in rad, counter-clockwise, from the start of the fan of a vertex to a direction out of it; 0 within a piece.
 fn fan_angle(walls: &Walls, contact: &Contact, direction: Vec2) -> f64 {
     let Some([arriving, _]) = walls.tangents(contact) else { return 0.0 };
     let begins = -perpendicular(arriving);

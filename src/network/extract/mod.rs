@@ -1,12 +1,12 @@
 //! The pore network of a geometry: pores are the local maxima of the wall distance, throats its saddles.
 //!
 //! Chords, the segments between the two wall contacts of a throat, cut the pore space into regions that tile it exactly, one around each
-//! maximum: along a chord the distance falls to both walls at slope one, so that it is the watershed between both. The certificate of a
-//! network is that every region holds exactly one maximum, that regions are simply connected, that their areas sum to that of the pore space and
-//! that no throat is wider than its pores. Where it fails, the walls of the regions concerned are sampled more densely, in the end all their pairs are
-//! looked at, and all is done again.
+//! maximum: along a chord the distance falls towards both walls at slope one, so it is the watershed between two maxima. The certificate of
+//! a network: every region contains exactly one maximum, regions are simply connected, their areas sum to that of the pore space, and no
+//! throat is wider than its pores. If it fails, the walls of the regions concerned are sampled more densely, at last all their pairs are
+//! considered, and extraction is repeated.
 //!
-//! At a side that is neither wall nor periodic the domain ends: regions end there with openings. The largest inscribed circle of such a region
+//! At a side that is neither wall nor periodic the domain and its regions end with openings. The largest inscribed circle of such a region
 //! may have its center on the side.
 
 mod error;
@@ -30,22 +30,22 @@ use crate::network::extract::regions::{Attempt, attempt};
 use crate::network::extract::sides::Perimeter;
 use crate::network::graph::Network;
 
-/// How often the sampling is doubled where the certificate fails. A circle then has 24 * 2^8 samples.
+/// Maximum number of times that the sampling is doubled if the certificate fails. A circle then has 24 * 2^8 samples.
 const ROUNDS: usize = 8;
 
-/// From this round on all pairs of the walls around a region are candidates: rounding can turn an edge of the triangulation of samples, however
+/// From this round on all pairs of the walls around a region are candidates: the triangulation of the samples can lack an edge by rounding, however
 /// dense they are.
 const ALL_PAIRS_FROM: usize = 2;
 
-/// Walls around a region, at most, whose pairs are all looked at.
+/// Maximum number of walls around a region whose pairs are all considered.
 const FEW: usize = 1000;
 
-/// The network of all maxima. `open_sides` (left, right, bottom, top) are those through which fluids come and go; a side that is neither wall nor
+/// The network of all maxima. `open_sides` (left, right, bottom, top) are those for inflow and outflow; a side that is neither wall nor
 /// periodic is cut in the same way whether it is open or not, and its openings are listed.
 ///
 /// # Errors
-/// An [`ExtractError`] where the geometry has no pore space or no walls, where a wall or periodic side is asked to be open, and where no
-/// network with a certificate is found.
+/// An [`ExtractError`] if the geometry has no pore space or no walls, if a wall or periodic side is to be open, or if no network with a
+/// certificate is found.
 pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, ExtractError> {
     for side in (0..4).filter(|&side| open_sides[side]) {
         if geometry.periodic()[side / 2] || geometry.wall_sides()[side] {
@@ -61,7 +61,7 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
     certified(&walls, &perimeter, 1.0)
 }
 
-/// The network of walls, their samples multiplied by `density`, and by more where the certificate fails.
+/// The network of walls, their samples multiplied by `density`, and by more if the certificate fails.
 fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Network, ExtractError> {
     let mut density = vec![density; walls.walls.len()];
     let mut further = Vec::new();
@@ -114,7 +114,7 @@ mod tests {
                     assert_eq!((a.width, a.contacts, a.regions), (b.width, b.contacts, b.regions));
                 }
                 for (a, b) in fine.regions.iter().zip(&coarse.regions) {
-                    // Newton's method may begin elsewhere.
+                    // Newton's method may then start elsewhere.
                     assert!((a.radius - b.radius).abs() < 1e-14 && (a.area - b.area).abs() < 1e-14);
                 }
             }

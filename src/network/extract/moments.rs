@@ -3,7 +3,7 @@
 use crate::geometry::curve::{Curve, cross, unit};
 use crate::math::Vec2;
 
-/// Area and first moment about a point, of what lies on the left of a line.
+/// Area, and first moment about a point, of the region on the left of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moments {
     origin: Vec2,
@@ -17,19 +17,19 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Of nothing, about a point (m) near the line, which keeps rounding small.
+    /// Zero moments about a point (m) near the line, which reduces rounding.
     pub(crate) fn about(origin: Vec2) -> Self {
         Self { origin, last: None, area: 0.0, first: Vec2::zeros(), length: 0.0 }
     }
 
-    /// Goes on along a straight line to `b`, from where it was or from `a`.
+    /// Continues along a straight line to `b`, from the present point or from `a`.
     pub(crate) fn straight(&mut self, a: Vec2, b: Vec2) {
         self.jump(a);
         self.triangle(a, b);
         self.last = self.last.map(|[start, _]| [start, b]).or(Some([a, b]));
     }
 
-    /// Goes on along a curve.
+    /// Continues along a curve.
     pub(crate) fn curve(&mut self, curve: &Curve) {
         let (a, b) = (curve.point(0.0), curve.point(1.0));
         self.straight(a, b);

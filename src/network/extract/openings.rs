@@ -5,11 +5,11 @@ use crate::math::Vec2;
 
 /// The point of the segment from `a` to `b` (m) whose wall distance is largest, and that distance in m.
 ///
-/// The distance changes by at most one per length, which bounds it on every interval; the last one is searched by golden section.
+/// The distance has slope at most one, which bounds it on every interval; the last one is searched by golden section.
 pub(super) fn farthest(walls: &Walls, a: Vec2, b: Vec2) -> (Vec2, f64) {
-    // Intervals whose bound exceeds the best value by less than this share cannot hold another peak that matters.
+    // Relative margin of the bound of an interval above the best value, below which it cannot contain a relevant peak.
     const CLOSE: f64 = 1e-3;
-    // A bound for degenerate input; peaks are found after some tens.
+    // Bound for degenerate input; usually a few tens suffice.
     const MOST: usize = 10_000;
     let length = (b - a).norm();
     let value = |u: f64| walls.distance(a + (b - a) * u);

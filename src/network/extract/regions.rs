@@ -1,4 +1,4 @@
-//! Regions and throats from loops and maxima, and the certificate.
+//! Regions and throats from loops and maxima, and their certificate.
 
 use std::collections::BTreeSet;
 
@@ -13,11 +13,11 @@ use crate::network::extract::moments::Moments;
 use crate::network::extract::openings::farthest;
 use crate::network::graph::{Edge, Network, Opening, Region, Throat, WallPiece};
 
-/// What came of some critical points.
+/// The result of extraction from given critical points.
 pub(super) enum Attempt {
-    /// A network that has its certificate.
+    /// A network with a certificate.
     Certified(Network),
-    /// Regions that do not hold exactly one maximum.
+    /// Regions without exactly one maximum.
     Failed {
         /// Where, in m.
         places: Vec<Vec2>,
@@ -26,10 +26,10 @@ pub(super) enum Attempt {
     },
 }
 
-/// Radii and widths that differ by less than this share are equal.
+/// Relative tolerance of equal radii and widths.
 const SAME: f64 = 1e-7;
 
-/// The network of the loops, if each of them has its one maximum.
+/// The network of the loops, if each of them has exactly one maximum.
 pub(super) fn attempt(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> Attempt {
     let owned = maxima_of(walls, points, loops);
     let mut network = Network { throats: throats(walls, points), ..Network::default() };
@@ -58,7 +58,7 @@ pub(super) fn attempt(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> 
     Attempt::Certified(network)
 }
 
-/// A maximum of a loop: its number, and the shift that is added to it in the frame of the loop.
+/// A maximum of a loop: its number, and its shift in the frame of the loop.
 #[derive(Debug, Clone, Copy)]
 struct Owned {
     maximum: usize,
@@ -73,7 +73,7 @@ fn maxima_of(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> Vec<Vec<O
             .contacts
             .iter()
             .filter_map(|contact| loops.at(walls, contact, contact.point - maximum.center))
-            // The contact that is farthest from chord ends leaves no doubt.
+            // The contact farthest from chord ends is unambiguous.
             .max_by(|a, b| a.2.total_cmp(&b.2));
         if let Some((number, shift, _)) = found {
             owned[number].push(Owned { maximum: k, shift });
@@ -97,7 +97,7 @@ fn throats(walls: &Walls, points: &CriticalPoints) -> Vec<Throat> {
         .collect()
 }
 
-/// The signed curvature in 1/m of the wall at a contact: infinite at a vertex that turns; where two arcs join smoothly the larger one.
+/// The signed curvature in 1/m of the wall at a contact: infinite at a sharp vertex; the larger one if two arcs join smoothly.
 fn contact_curvature(walls: &Walls, contact: &Contact) -> f64 {
     let [before, after] = walls.around(contact);
     let (Some(before), Some(after)) = (before, after) else { return f64::INFINITY };
@@ -109,7 +109,7 @@ fn contact_curvature(walls: &Walls, contact: &Contact) -> f64 {
     if turns { f64::INFINITY } else { curvature(&a).max(curvature(&b)) }
 }
 
-/// The region of a loop; none where the loop is not closed or has neither maximum nor opening.
+/// The region of a loop; `None` if the loop is not closed or has neither maximum nor opening.
 fn build(
     walls: &Walls,
     points: &CriticalPoints,
@@ -159,7 +159,7 @@ fn build(
                 edges.push(Edge::Wall(stretch.take().unwrap_or_default()));
                 edges.push(Edge::Throat { throat, end, from, to });
                 network.throats[throat].regions[end] = number;
-                // `contacts` and `shift` hold the frames of both regions once both have been here.
+                // `contacts` and `shift` are complete once both regions have been processed.
                 if end == 0 {
                     network.throats[throat].contacts = [from, to];
                     network.throats[throat].shift -= offset;
@@ -181,7 +181,7 @@ fn build(
     }
     if let Some(last) = stretch {
         match edges.first_mut() {
-            // The loop began within this stretch.
+            // The loop started within this stretch.
             Some(Edge::Wall(first)) => {
                 let begin = std::mem::replace(first, last);
                 first.extend(begin);
@@ -193,7 +193,7 @@ fn build(
     Some(Region { center, radius, edges, area: -moments.area, wall_length, centroid: moments.centroid() })
 }
 
-/// The point of the openings of a loop that is farthest from the walls, in the frame of the loop, and its distance in m.
+/// The point on the openings of a loop farthest from the walls, in the frame of the loop, and its distance in m.
 fn widest_opening(walls: &Walls, ring: &Loop) -> Option<(Vec2, f64)> {
     let parts = ring.steps.iter().filter_map(|step| match *step {
         Step::Side { part, shift } => Some((part, walls.offset(shift))),
@@ -217,7 +217,7 @@ fn is_certified(walls: &Walls, region: &Region, maxima: usize) -> bool {
     }
 }
 
-/// Where the certificate fails: the first point of each loop, and all its walls.
+/// A failed certificate: the first point of each loop, and all its walls.
 fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item = &'a Loop>) -> Attempt {
     let (mut places, mut images) = (Vec::new(), Vec::new());
     for ring in loops {

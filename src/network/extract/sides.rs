@@ -1,6 +1,6 @@
-//! Open sides: how a region's boundary follows them from where one wall ends to where the next begins.
+//! Open sides: the boundary of a region along them, from the end of one wall to the start of the next.
 //!
-//! The sides are run through clockwise, domain on the right: up the left one, along the top one, down the right one, back along the bottom.
+//! The sides are traversed clockwise, domain on the right: up the left one, along the top one, down the right one, back along the bottom.
 
 use crate::geometry::critical::shift::Shift;
 use crate::geometry::critical::walls::Walls;
@@ -11,50 +11,50 @@ use crate::math::Vec2;
 pub(super) struct SidePart {
     /// Left, right, bottom, top: 0 to 3.
     pub(crate) side: usize,
-    /// Where it begins in m.
+    /// Start in m.
     pub(crate) from: Vec2,
-    /// Where it ends in m.
+    /// End in m.
     pub(crate) to: Vec2,
 }
 
 /// From the end of a wall along sides to the start of the next one.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Way {
-    /// Straight parts, none of them empty.
+    /// Straight parts, none empty.
     pub(crate) parts: Vec<SidePart>,
-    /// The wall that begins there.
+    /// The next wall.
     pub(crate) wall: usize,
     /// Its image.
     pub(crate) shift: Shift,
 }
 
-/// A wall end that does not lie on a side, or no wall begins where one should.
+/// A wall end that does not lie on a side, or a missing start of the next wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Broken {
     /// Where, in m.
     pub(crate) at: Vec2,
 }
 
-/// All ways along the sides.
+/// All paths along the sides.
 pub(super) struct Perimeter {
     ways: Vec<Option<Way>>,
-    /// Closed runs along sides that no wall meets.
+    /// Closed runs along sides without walls.
     pub(crate) uncut: Vec<Vec<SidePart>>,
 }
 
 /// Sides in clockwise order with their number: left up, top, right down, bottom back.
 const CLOCKWISE: [usize; 4] = [0, 3, 1, 2];
 
-/// A cut wall on a run of sides.
+/// A wall cut by a run of sides.
 #[derive(Clone, Copy)]
 struct Cut {
-    place: f64,
+    position: f64,
     is_start: bool,
     wall: usize,
 }
 
 impl Perimeter {
-    /// The ways of all walls that end at sides.
+    /// The paths from all walls that end at sides.
     pub(crate) fn new(walls: &Walls) -> Result<Self, Vec<Broken>> {
         let mut all = Self { ways: vec![None; walls.walls.len()], uncut: Vec::new() };
         let mut broken = Vec::new();
@@ -70,12 +70,12 @@ impl Perimeter {
                     broken.push(Broken { at: walls.walls[cut.wall].curve.point(1.0) });
                     continue;
                 }
-                let until = if k + 1 < cuts.len() { next.place } else { next.place + run.length };
-                let parts = run.between(walls, cut.place, until);
+                let until = if k + 1 < cuts.len() { next.position } else { next.position + run.length };
+                let parts = run.between(walls, cut.position, until);
                 // A run around a periodic domain leads to an image of the next wall.
-                let reached = run.point(cut.place) + parts.iter().map(|part| part.to - part.from).sum::<Vec2>();
+                let reached = run.point(cut.position) + parts.iter().map(|part| part.to - part.from).sum::<Vec2>();
                 let start = walls.walls[cut.wall].curve.point(1.0);
-                let from = start - run.point(cut.place);
+                let from = start - run.point(cut.position);
                 let to = reached + from - walls.walls[next.wall].curve.point(0.0);
                 let shift = [0, 1].map(|i| (to[i] / walls.domain.size()[i]).round() as i32);
                 let parts = parts.into_iter().map(|p| SidePart { from: p.from + from, to: p.to + from, ..p }).collect();
@@ -93,13 +93,13 @@ impl Perimeter {
         if broken.is_empty() { Ok(all) } else { Err(broken) }
     }
 
-    /// The way from the end of a wall.
+    /// The path from the end of a wall.
     pub(crate) fn way(&self, wall: usize) -> Option<&Way> {
         self.ways[wall].as_ref()
     }
 }
 
-/// Sides that follow each other in a closed run.
+/// Consecutive sides of a closed run.
 struct Run {
     sides: Vec<usize>,
     corners: Vec<Vec2>,
@@ -130,21 +130,21 @@ fn runs(walls: &Walls) -> Vec<Run> {
 }
 
 impl Run {
-    /// The place of a point on the run, in m from its start.
-    fn place(&self, x: Vec2) -> Option<f64> {
+    /// The arc length in m of a point on the run.
+    fn position(&self, x: Vec2) -> Option<f64> {
         let mut passed = 0.0;
         for pair in self.corners.windows(2) {
             let along = pair[1] - pair[0];
             let length = along.norm();
-            let place = (x - pair[0]).dot(&along) / length;
-            let apart = (x - pair[0] - along * (place / length)).norm();
-            if apart <= self.tolerance && place >= -self.tolerance && place <= length + self.tolerance {
-                let place = passed + place;
+            let position = (x - pair[0]).dot(&along) / length;
+            let apart = (x - pair[0] - along * (position / length)).norm();
+            if apart <= self.tolerance && position >= -self.tolerance && position <= length + self.tolerance {
+                let position = passed + position;
                 // The end of the run is its start.
-                return Some(if place > self.length - self.tolerance {
-                    (place - self.length).max(0.0)
+                return Some(if position > self.length - self.tolerance {
+                    (position - self.length).max(0.0)
                 } else {
-                    place.max(0.0)
+                    position.max(0.0)
                 });
             }
             passed += length;
@@ -152,9 +152,9 @@ impl Run {
         None
     }
 
-    /// The point at a place, which may exceed the length by one turn.
-    fn point(&self, place: f64) -> Vec2 {
-        let mut left = place;
+    /// The point at an arc length, which may exceed the total length by one turn.
+    fn point(&self, position: f64) -> Vec2 {
+        let mut left = position;
         for pair in self.corners.windows(2) {
             let length = (pair[1] - pair[0]).norm();
             if left <= length {
@@ -169,17 +169,17 @@ impl Run {
         let mut cuts = Vec::new();
         for (k, wall) in walls.walls.iter().enumerate().filter(|(_, wall)| !wall.curve.is_closed()) {
             for (is_start, u, link) in [(true, 0.0, wall.before), (false, 1.0, wall.next)] {
-                let found = self.place(walls.wrapped(wall.curve.point(u)).0);
-                if let (None, Some(place)) = (link, found) {
+                let found = self.position(walls.wrapped(wall.curve.point(u)).0);
+                if let (None, Some(position)) = (link, found) {
                     seen[k][usize::from(!is_start)] = true;
-                    cuts.push(Cut { place, is_start, wall: k });
+                    cuts.push(Cut { position, is_start, wall: k });
                 }
             }
         }
-        // Where a wall ends and another begins at one place, the side between them is empty.
-        cuts.sort_by(|a, b| a.place.total_cmp(&b.place).then(a.is_start.cmp(&b.is_start)));
+        // If a wall ends at the start of another one, the side between them is empty.
+        cuts.sort_by(|a, b| a.position.total_cmp(&b.position).then(a.is_start.cmp(&b.is_start)));
         for k in 1..cuts.len() {
-            let is_same = cuts[k].place - cuts[k - 1].place <= self.tolerance;
+            let is_same = cuts[k].position - cuts[k - 1].position <= self.tolerance;
             if is_same && cuts[k - 1].is_start && !cuts[k].is_start {
                 cuts.swap(k - 1, k);
             }
@@ -187,7 +187,7 @@ impl Run {
         cuts
     }
 
-    /// The parts of sides between two places; the second may exceed the length.
+    /// The parts of sides between two arc lengths; the second may exceed the total length.
     fn between(&self, walls: &Walls, from: f64, to: f64) -> Vec<SidePart> {
         let mut parts = Vec::new();
         let mut passed = 0.0;
@@ -197,7 +197,7 @@ impl Run {
                 let length = along.norm();
                 let (low, high) = ((from - passed).max(0.0), (to - passed).min(length));
                 if high - low > walls.tolerance {
-                    // On a closed side the second turn is an image.
+                    // On a closed side the second turn is a periodic image.
                     let image = if self.sides.len() == 1 && turn == 1 { along } else { Vec2::zeros() };
                     let at = |s: f64| pair[0] + along * (s / length) + image;
                     parts.push(SidePart { side, from: at(low), to: at(high) });
