@@ -1,7 +1,6 @@
-//! Sparse matrices whose entries stand at the same places all through a run: LU factors by faer, their pattern found once.
+//! Sparse matrices with a sparsity pattern that is constant during a run: LU factors by faer, with one symbolic factorization.
 //!
-//! An entry that is told twice is the sum of both. A matrix of rank one can be added to a factored matrix by the formula of Sherman and
-//! Morrison.
+//! Duplicate entries are added. A matrix of rank one can be added to a factored matrix by the Sherman-Morrison formula.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,9 +11,9 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 
 use crate::math::factor_in_one_thread;
 
-/// The library's count of rows and entries: half the memory of the machine's, and less to move.
+/// The index type of the library: half the memory of a machine word.
 type Count = u32;
-/// Entries that a pattern may have, so that those of its factors can be counted too.
+/// Maximum number of entries of a pattern, such that those of its factors can be indexed too.
 const MOST_ENTRIES: usize = 1 << 28;
 
 /// A matrix that is too large for the memory.
@@ -22,7 +21,7 @@ const MOST_ENTRIES: usize = 1 << 28;
 #[error("a sparse matrix of {0} rows does not fit into the memory")]
 pub struct TooLarge(pub usize);
 
-/// Where the entries of a matrix stand, and in which order it is eliminated.
+/// The sparsity pattern of a matrix with its elimination order.
 #[derive(Clone)]
 pub(crate) struct Pattern(Arc<Places>);
 
@@ -48,7 +47,7 @@ struct RankOne {
 }
 
 impl Pattern {
-    /// The pattern of a square matrix whose entries are told in the order of `places`, as row and column.
+    /// The pattern of a square matrix whose entries are given as row and column, in the order of `places`.
     pub(crate) fn new(size: usize, places: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
         factor_in_one_thread();
         let pair = |(row, column): (usize, usize)| Pair { row: row as Count, col: column as Count };
@@ -62,7 +61,7 @@ impl Pattern {
         Ok(Self(Arc::new(Places { matrix, order, elimination })))
     }
 
-    /// Factors of the matrix with these values in the order of the pattern; none where it is singular or not finite.
+    /// Factors of the matrix with these values in the order of the pattern; `None` if it is singular or not finite.
     pub(crate) fn factor(&self, values: &[f64]) -> Option<Factors> {
         let Places { matrix, order, elimination } = self.0.as_ref();
         if !values.iter().all(|value| value.is_finite()) {
@@ -81,7 +80,7 @@ impl fmt::Debug for Pattern {
 }
 
 impl Factors {
-    /// The factors with the matrix `column` `row`ᵀ added; none where the sum is singular.
+    /// The factors with the matrix `column` `row`ᵀ added; `None` if the sum is singular.
     pub(crate) fn with_rank_one(mut self, mut column: Vec<f64>, row: Vec<f64>) -> Option<Self> {
         self.solve(&mut column);
         let denominator = 1.0 + dot(&row, &column);
@@ -108,7 +107,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A cyclic matrix without a large diagonal, told with every entry in two parts.
+    /// A cyclic matrix without diagonal dominance, with every entry given in two parts.
     fn ring(size: usize) -> (Vec<(usize, usize)>, Vec<f64>) {
         let mut places = Vec::new();
         let mut values = Vec::new();
@@ -142,7 +141,7 @@ mod tests {
             let product = times(&places, &values, &x);
             let mut solved = product.clone();
             factors.solve(&mut solved);
-            // Rounding times a condition number of some thousand.
+            // Rounding times a condition number of several thousand.
             assert!(largest_difference(&solved, &x) < 1.0e-10, "{size}");
 
             let column: Vec<f64> = (0..size).map(|i| (1.1 * i as f64).sin()).collect();
