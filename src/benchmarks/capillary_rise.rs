@@ -11,7 +11,7 @@ use crate::sph::observe::Observation;
 /// Columns and measures of its table `[sph.measure.capillary-rise]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
-/// `apex_m`: distance of the nearest point of the interface from the side that the wetting phase comes in through.
+/// `apex_m`: distance of the nearest point of the interface from the side through which the wetting phase enters.
 fn columns(flow: &Flow, seen: &Observation) -> Columns {
     let apex = entry(flow).map_or(f64::NAN, |side| {
         let points = seen.interface.iter().flat_map(|line| &line.points);
