@@ -20,7 +20,7 @@ impl Geometry {
         self.outline_within(0.0)
     }
 
-    /// The same with chords within `error` (m) of their arcs, as far as the angle between vertices stays from 1 to 15 degrees.
+    /// The same with chords within `error` (m) of their arcs, but angles between vertices of 1 to 15 degrees.
     pub(crate) fn outline_within(&self, error: f64) -> Lines<'static> {
         let pieces = self.visible_pieces();
         let next = followers(&pieces, 10.0 * self.tolerance());
@@ -67,12 +67,12 @@ impl Geometry {
     }
 }
 
-/// Parameters of the vertices of a curve whose chords lie within `error` (m) of it, its end left out.
+/// Parameters of the vertices of a curve whose chords lie within `error` (m) of it, without its end.
 fn samples(curve: &Curve, error: f64) -> impl Iterator<Item = f64> + use<> {
     let count = match *curve {
         Curve::Segment { .. } => 1,
         Curve::Arc { radius, sweep, .. } => {
-            // A chord of this angle lies radius (1 − cos(angle/2)) from the middle of its arc.
+            // Sagitta of a chord of this angle: radius (1 − cos(angle/2)).
             let angle = 2.0 * (1.0 - error / radius).clamp(-1.0, 1.0).acos();
             (sweep.abs() / angle.clamp(FINE_ANGLE, COARSE_ANGLE)).ceil().max(1.0) as usize
         }
