@@ -1,4 +1,4 @@
-//! A window in a larger drawing: shapes that do not reach into it are left out; [`cut`](crate::geometry::import::cut) cuts the others.
+//! A window in a larger drawing: shapes outside it are omitted; [`cut`](crate::geometry::import::cut) cuts the others.
 
 use crate::geometry::body::Body;
 use crate::geometry::curve::Curve;
@@ -20,7 +20,7 @@ pub(crate) fn reaches(shape: &ShapeSpec, window: Bounds) -> bool {
         if (0..2).all(|i| b.min[i] <= a.min[i] && a.max[i] <= b.max[i]) {
             return true;
         }
-        // A part of its surface lies in the window, or the window lies in it.
+        // A part of its surface lies in the window, or the window lies inside it.
         body.curves.iter().any(|curve| enters(curve, window, tolerance)) || body.signed_distance(window.center()) < 0.0
     })
 }

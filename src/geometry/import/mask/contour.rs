@@ -1,15 +1,15 @@
-//! Marching squares over the pixel centers: lines where the share of solid passes one half, solid on the left.
+//! Marching squares on the pixel centers: lines where the solid fraction equals one half, solid on the left.
 //!
-//! A line is closed, or it begins and ends on the outermost pixel centers. A cell whose solid corners lie across is solid in the
-//! middle where the mean of its corners is one half or more, so that a line never crosses itself or another.
+//! A line is closed, or it starts and ends on the outermost pixel centers. A saddle cell is solid in the middle if the mean of its corners is one half or
+//! more, so that lines never cross themselves or each other.
 
 use super::pixels::Solid;
 use crate::math::Vec2;
 
-/// Up, left, down, right: each a quarter turn to the left of the one before.
+/// Up, left, down, right: each rotated by a quarter turn to the left from the previous one.
 const STEPS: [[isize; 2]; 4] = [[0, 1], [-1, 0], [0, -1], [1, 0]];
 
-/// A place where a line passes between two pixel centers.
+/// A point where a line passes between two pixel centers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Crossing {
     /// Index of the solid pixel, on the left.
@@ -57,18 +57,18 @@ impl Grid<'_> {
         self.moved(at.solid as usize, [dy, -dx]).unwrap_or(at.solid as usize)
     }
 
-    /// The two pixels ahead: beyond the solid one and beyond the pore one; none at the edge of the image.
+    /// The two pixels ahead: beyond the solid one and beyond the pore one; `None` at the edge of the image.
     pub(crate) fn ahead(&self, at: Crossing) -> Option<[usize; 2]> {
         let step = STEPS[at.heading as usize];
         Some([self.moved(at.solid as usize, step)?, self.moved(self.pore(at), step)?])
     }
 
-    /// Where the line passes.
+    /// Position of the line.
     pub(crate) fn point(&self, at: Crossing) -> Vec2 {
         self.point_within(at, 0.0)
     }
 
-    /// The same, but clear of the pixel centers, where lines may touch.
+    /// The same, but away from the pixel centers, where lines may touch.
     pub(crate) fn apart(&self, at: Crossing) -> Vec2 {
         const CLEAR: f64 = 0.05;
         self.point_within(at, CLEAR)
@@ -85,7 +85,7 @@ impl Grid<'_> {
         0.5 * (self.center(at.solid as usize) + self.center(self.pore(at)))
     }
 
-    /// The next crossing and the turn to the left that leads there, in quarter turns; none at the edge of the image.
+    /// The next crossing and the turn to the left towards it, in quarter turns; `None` at the edge of the image.
     fn next(&self, at: Crossing) -> Option<(Crossing, i64)> {
         let [left, right] = self.ahead(at)?;
         let pore = self.pore(at);
