@@ -165,7 +165,7 @@ impl Arc {
         perpendicular(turned(node.tangent, node.curvature * node.beside(x).1))
     }
 
-    /// The point of the arc at the arc length `way` (m) from the foot of `from`, in the order of the points; clamped to the ends of the arc.
+    /// The point of the arc at the arc length `length` (m) from the foot of `from`, in the order of the points; clamped to the ends of the arc.
     pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
         if self.nodes.is_empty() {
             return self.middle.walk(from, way);

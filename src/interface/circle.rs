@@ -49,7 +49,7 @@ impl CircleFit {
         to_center / to_center.norm()
     }
 
-    /// The point of the circle at the arc length `way` (m) from its nearest point to `from`, in the order of the points.
+    /// The point of the circle at the arc length `length` (m) from the point nearest to `from`, in the order of the points.
     pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
         let normal = self.normal_at(from);
         let start = from - self.distance(from) * normal;

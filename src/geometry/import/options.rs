@@ -14,50 +14,50 @@ pub(crate) const SMOOTH_BELOW_DEG: f64 = 20.0;
 
 /// Length of the drawing unit.
 pub(crate) const SCALE: Key = Key::positive("a length in m");
-/// Distance of ends that meet.
+/// Distance within which ends are joined.
 pub(crate) const JOIN_WITHIN: Key = Key::positive("a length in units of the drawing")
     .help("leave it out to join ends that meet within 1e-6 of the drawing");
-/// Gray value between solid and pore.
+/// Gray value that separates solid from pore.
 pub(crate) const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle");
 /// Side of a pixel.
 pub(crate) const PIXEL_SIZE: Key = SCALE;
 /// Angle of a smooth vertex.
 pub(crate) const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
 
-/// Keys of `[geometry]` beside `file`, and options of the command line.
+/// Keys of `[geometry]` besides `file`, and options of the command line.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// Name of the drawing unit, as in `mm`.
     pub unit: Option<String>,
-    /// Length of the drawing unit in m, in place of `unit`.
+    /// Length of the drawing unit in m, instead of `unit`.
     pub scale: Option<f64>,
     /// Lower left and upper right corner of the domain in m.
     pub window: Option<[[f64; 2]; 2]>,
-    /// Layers to read; all where there is none.
+    /// Layers to read; all by default.
     pub layers: Option<Vec<String>>,
-    /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing.
+    /// Distance within which ends of lines of a DXF drawing are joined, in units of the drawing.
     pub join_within: Option<f64>,
-    /// Gray value between solid and pore, 0 (black) to 1 (white).
+    /// Gray value that separates solid from pore, 0 (black) to 1 (white).
     pub threshold: Option<f64>,
     /// Side of a pixel in m.
     pub pixel_size: Option<f64>,
-    /// Whether what is drawn is the pore and all else solid.
+    /// Whether the drawn shapes are the pore and all else solid.
     pub invert: Option<bool>,
     /// Whether polygons whose vertices lie on a circle become discs (default yes).
     pub recognize_circles: Option<bool>,
-    /// Vertices that turn by less than this many degrees are taken for points of a smooth curve; 0: none.
+    /// Vertices with smaller angles than this, in degrees, are points of a smooth curve; 0: none.
     pub smooth_below_deg: Option<f64>,
     /// Columns of x, y and radius in a list, counted from 0.
     pub columns: Option<[usize; 3]>,
-    /// What separates the columns of a list.
+    /// Separator of the columns of a list.
     pub separator: Option<char>,
     /// Whether the third column of a list holds diameters (default no).
     pub diameters: Option<bool>,
 }
 
 impl Options {
-    /// Whether what is drawn is the pore.
+    /// Whether the drawn shapes are the pore.
     pub(crate) fn is_inverted(&self) -> bool {
         self.invert.unwrap_or(false)
     }
