@@ -92,8 +92,8 @@ pub use geometry::{
 /// let overrides = Overrides::parse(&["sph.spacing=-1", "sph.interface.tension=\"high\""])?;
 /// let InputError { mistakes } = load_default(&overrides).unwrap_err();
 /// assert_eq!(mistakes.len(), 2);
-/// let told = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
-/// assert!(mistakes.iter().any(told));
+/// let is_expected = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
+/// assert!(mistakes.iter().any(is_expected));
 /// # Ok::<(), InputError>(())
 /// ```
 pub use input::{InputError, Mistake, Overrides};

@@ -55,20 +55,20 @@ impl Balance {
 /// Warns if the forces on the drop do not balance.
 pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     let error = Balance::of(s).error();
-    let told = (error.abs() > LARGEST_ERROR).then(|| {
+    let warning = (error.abs() > LARGEST_ERROR).then(|| {
         format!(
             "the forces on the drop along its wall miss the change of its momentum by {error:.3} of the tension: drag and retention are \
              known no better (momentum-balance-error)"
         )
     });
-    told.into_iter().collect()
+    warning.into_iter().collect()
 }
 
 /// The angles at the wall and the force balance along it.
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, series) = (s.flow.config.method.tension, s.series);
     let balance = Balance::of(s);
-    let (seen, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);
+    let (apparent, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);
     let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
     let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
     let static_angle = s.flow.config.method.wetting.map_or(f64::NAN, |model| model.static_angle());
@@ -83,7 +83,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             None,
             "tension times the cosine of the static angle: that of the dry less that of the wetted wall",
         ),
-        measure("retention-N-per-m", seen, "N/m", None, retention),
+        measure("retention-N-per-m", apparent, "N/m", None, retention),
         measure("wall-retention-N-per-m", at_wall, "N/m", None, "the same with the angles at the wall"),
         measure(
             "stream-drag-N-per-m",
@@ -100,7 +100,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             "body force less buoyancy plus friction of the wall plus drag of the stream less the change of the momentum of the drop, along \
              the wall, over the last three quarters of the time",
         ),
-        measure("drag-over-retention", drag / seen, "", None, "net drag over the retention by the apparent angles"),
+        measure("drag-over-retention", drag / apparent, "", None, "net drag over the retention by the apparent angles"),
         measure(
             "drag-over-wall-retention",
             drag / at_wall,

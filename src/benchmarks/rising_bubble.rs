@@ -16,12 +16,12 @@ use crate::sph::particles::Phase;
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Height of the center, mean rise velocity, and circularity.
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let center = Moments::of_wetting_phase(flow).center;
     vec![
         ("bubble_center_m", center.dot(&up(flow))),
         ("bubble_speed_m_per_s", speed(flow)),
-        ("bubble_circularity", circularity(&seen.interface)),
+        ("bubble_circularity", circularity(&observation.interface)),
     ]
 }
 

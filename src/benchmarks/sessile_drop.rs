@@ -121,10 +121,10 @@ struct Extent {
 
 impl Extent {
     /// The observed extent, including the mirror image beyond a symmetry side.
-    fn of(flow: &Flow, seen: &Observation) -> Self {
+    fn of(flow: &Flow, observation: &Observation) -> Self {
         // As for the angle: the contour may be displaced by this much, uniformly. Both ends then move outward, farther for a flat drop.
         let off = ACCURACY * flow.config.method.kernel.h;
-        let lines: Vec<ContactLine> = seen.lines_with_angle().copied().chain(image(flow, seen)).collect();
+        let lines: Vec<ContactLine> = observation.lines_with_angle().copied().chain(image(flow, observation)).collect();
         // Contours continue across periodic sides, so the distance of the two ends of a drop needs no minimum image.
         let [a, b] = &lines[..] else {
             let none = Length { value: f64::NAN, uncertainty: f64::NAN };
@@ -132,7 +132,7 @@ impl Extent {
         };
         let (from, along) = (a.position, b.position - a.position);
         let distance = |x: &Vec2| along.perp(&(x - from)).abs() / along.norm();
-        let points = seen.interface.iter().flat_map(|line| &line.points);
+        let points = observation.interface.iter().flat_map(|line| &line.points);
         let along_wall = |line: &ContactLine| off / line.angle_deg.to_radians().sin().max(SMALLEST_SINE);
         Self {
             base: Length { value: along.norm(), uncertainty: along_wall(a) + along_wall(b) },
@@ -142,9 +142,9 @@ impl Extent {
 }
 
 /// The symmetry side at which the interface of a half drop ends: its only contact line has a mirror image there.
-fn mirror(flow: &Flow, seen: &Observation) -> Option<Mirror> {
-    let [interface] = &seen.interface[..] else { return None };
-    if seen.lines_with_angle().count() != 1 {
+fn mirror(flow: &Flow, observation: &Observation) -> Option<Mirror> {
+    let [interface] = &observation.interface[..] else { return None };
+    if observation.lines_with_angle().count() != 1 {
         return None;
     }
     let ends = [*interface.points.first()?, *interface.points.last()?];
@@ -156,9 +156,9 @@ fn mirror(flow: &Flow, seen: &Observation) -> Option<Mirror> {
 }
 
 /// The mirror image of the contact line of a half drop.
-fn image(flow: &Flow, seen: &Observation) -> Option<ContactLine> {
-    let mirror = mirror(flow, seen)?;
-    let mut line = *seen.lines_with_angle().next()?;
+fn image(flow: &Flow, observation: &Observation) -> Option<ContactLine> {
+    let mirror = mirror(flow, observation)?;
+    let mut line = *observation.lines_with_angle().next()?;
     line.position[mirror.axis] = 2.0 * mirror.at - line.position[mirror.axis];
     Some(line)
 }
@@ -169,8 +169,8 @@ fn areas(s: &Subject) -> [f64; 2] {
     [whole * s.seen.areas.wetting, whole * s.seen.areas.non_wetting]
 }
 
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
-    let Extent { base, height } = Extent::of(flow, seen);
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
+    let Extent { base, height } = Extent::of(flow, observation);
     vec![(BASE, base.value), (HEIGHT, height.value)]
 }
 
@@ -270,18 +270,18 @@ mod tests {
             let side = profile(apex_curvature, length, degrees.to_radians());
             let floor = side.last().unwrap().z;
             let points: Vec<Vec2> = side.iter().rev().map(|p| Vec2::new(p.x, -p.z)).collect();
-            let mut way = 0.0;
+            let mut arc_length = 0.0;
             let mut last = points[0];
             let used = points.iter().filter(|x| {
-                way += (**x - last).norm();
+                arc_length += (**x - last).norm();
                 last = **x;
-                x.y > -0.8 * floor && way < 4.0 * length
+                x.y > -0.8 * floor && arc_length < 4.0 * length
             });
             let used: Vec<Vec2> = used.step_by(8).copied().collect();
             let arc = Arc::fit(&used, Vec2::new(0.0, -length.powi(-2)), length).unwrap();
             assert!(arc.middle.rms < 1e-4, "{degrees}: {:e}", arc.middle.rms);
-            let way = (points[0] - used[0]).norm();
-            let back = arc.walk(used[0], -way);
+            let arc_length = (points[0] - used[0]).norm();
+            let back = arc.walk(used[0], -arc_length);
             let off = arc.normal_at(points[0]).dot(&Vec2::y()) + degrees.to_radians().cos();
             assert!((back - points[0]).norm() < 0.02 * length && off.abs() < 2e-3, "{degrees}: {back:?}, {off}");
         }

@@ -82,8 +82,8 @@ fn across(flow: &Flow, side: &OpenSide) -> f64 {
 }
 
 /// `filled_length_m`: area of the wetting phase over the width.
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
-    let length = entry(flow).map_or(f64::NAN, |side| seen.areas.wetting / across(flow, side));
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
+    let length = entry(flow).map_or(f64::NAN, |side| observation.areas.wetting / across(flow, side));
     vec![("filled_length_m", length)]
 }
 
@@ -110,24 +110,24 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let (times, lengths) = pairs(s.series, "filled_length_m");
     let Some((&first, &last)) = lengths.first().zip(lengths.last()) else { return vec![] };
     let exact = law.lengths(first, &times);
-    let way = exact.last().map_or(f64::NAN, |end| end - first);
+    let advance = exact.last().map_or(f64::NAN, |end| end - first);
     let worst = lengths.iter().zip(&exact).map(|(found, exact)| (found - exact).abs()).fold(0.0, f64::max);
     let method = "area of the wetting phase over the width; exact: both columns with the friction of a parabola and the static angle";
     vec![
         measure("filled-length-m", last, "m", None, "area of the wetting phase over the width, at the end"),
         measure(
             "filling-ratio",
-            (last - first) / way,
+            (last - first) / advance,
             "",
             None,
-            &format!("way of the meniscus over the exact one; {method}"),
+            &format!("advance of the meniscus over the exact one; {method}"),
         ),
         measure(
             "filling-error",
-            worst / way,
+            worst / advance,
             "",
             None,
-            &format!("largest difference over all records, over the whole way; {method}"),
+            &format!("largest difference over all records, over the whole advance; {method}"),
         ),
     ]
 }

@@ -9,8 +9,8 @@ use crate::sph::observe::Observation;
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Distance between the two contact points in m.
-fn columns(_: &Flow, seen: &Observation) -> Columns {
-    let lines: Vec<_> = seen.lines_with_angle().collect();
+fn columns(_: &Flow, observation: &Observation) -> Columns {
+    let lines: Vec<_> = observation.lines_with_angle().collect();
     // Contours continue across periodic sides, so the distance of the two ends of a drop needs no minimum image.
     let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
     vec![("base_m", base)]

@@ -67,9 +67,9 @@ fn everywhere() -> Bounds {
 }
 
 impl Body {
-    fn finite(shape: u32, curves: Vec<Curve>, place: Pose, parry: SharedShape) -> Self {
+    fn finite(shape: u32, curves: Vec<Curve>, pose: Pose, parry: SharedShape) -> Self {
         let curves = CurveSet::from(curves);
-        Self { shape, bounds: curves.bounds(), curves, inside: Inside::Parry(place, parry) }
+        Self { shape, bounds: curves.bounds(), curves, inside: Inside::Parry(pose, parry) }
     }
 
     /// The bodies of the specified shape number `shape`. The box determines the length of infinite walls.
@@ -242,10 +242,10 @@ impl Body {
 impl Inside {
     fn shifted(&self, by: Vec2) -> Self {
         match self {
-            Self::Parry(place, shape) => {
-                let mut place = *place;
-                place.translation += glam(by);
-                Self::Parry(place, shape.clone())
+            Self::Parry(pose, shape) => {
+                let mut pose = *pose;
+                pose.translation += glam(by);
+                Self::Parry(pose, shape.clone())
             }
             Self::Chain(curves) => Self::Chain(curves.shifted(by)),
             Self::Wound(winding) => Self::Wound(winding.shifted(by)),
@@ -255,8 +255,8 @@ impl Inside {
 
     fn signed_distance(&self, curves: &CurveSet, x: Vec2) -> f64 {
         match self {
-            Self::Parry(place, shape) => {
-                let found = shape.project_point(place, glam(x), false);
+            Self::Parry(pose, shape) => {
+                let found = shape.project_point(pose, glam(x), false);
                 let distance = (found.point - glam(x)).length();
                 let sign = if found.is_inside { -1.0 } else { 1.0 };
                 // Parry divides by zero at the center of a ball.

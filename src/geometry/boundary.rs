@@ -45,27 +45,27 @@ pub(crate) struct Boundary {
 /// The parts of `curve` between its intersections with `others`.
 pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, tolerance: f64) -> Vec<Curve> {
     let near = curve.bounds().grown(tolerance);
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     for other in others {
         if near.overlaps(&other.bounds()) {
-            meeting_places(curve, other, tolerance, &mut places);
+            meeting_places(curve, other, tolerance, &mut parameters);
         }
     }
-    if places.is_empty() {
+    if parameters.is_empty() {
         return vec![*curve];
     }
-    places.sort_by(f64::total_cmp);
+    parameters.sort_by(f64::total_cmp);
     let shortest = tolerance / curve.length();
     if curve.is_closed() {
         // Starting at the first intersection keeps an arc across the circle's start in one piece.
-        places.push(places[0] + 1.0);
+        parameters.push(parameters[0] + 1.0);
     } else {
-        places.insert(0, 0.0);
-        places.push(1.0);
+        parameters.insert(0, 0.0);
+        parameters.push(1.0);
     }
     let mut parts = Vec::new();
-    let mut from = places[0];
-    for &to in &places[1..] {
+    let mut from = parameters[0];
+    for &to in &parameters[1..] {
         if to - from > shortest {
             parts.push(curve.part(from, to));
             from = to;
@@ -75,8 +75,8 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
 }
 
 /// Whether a part with this outward normal remains in a union with one other body.
-fn stays(place: Place, normal: Vec2, is_first: bool) -> bool {
-    match place {
+fn stays(location: Place, normal: Vec2, is_first: bool) -> bool {
+    match location {
         Place::In => false,
         Place::Out => true,
         Place::On(other) => is_first && other.dot(&normal) > 0.0,

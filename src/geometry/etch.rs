@@ -220,21 +220,21 @@ fn grown_ring(ring: &[Curve], by: f64, shortest: f64) -> Result<Vec<[f64; 3]>, R
             Ok(Joint::Arc((0.25 * turn).tan()))
         } else {
             let corner = ring[second].point(0.0);
-            let place = meeting(&parts[first], &parts[second], corner);
+            let point = meeting(&parts[first], &parts[second], corner);
             let vanished =
                 || (format!("an edge at the corner ({:e}, {:e}) m would vanish", corner.x, corner.y), SMALLER);
-            place.map(Joint::Cut).ok_or_else(vanished)
+            point.map(Joint::Cut).ok_or_else(vanished)
         }
     };
     let joints = (0..count).map(joint).collect::<Result<Vec<_>, _>>()?;
     let mut vertices = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         let begin = match joints[(index + count - 1) % count] {
-            Joint::Cut(place) => place,
+            Joint::Cut(point) => point,
             Joint::Arc(_) => part.point(0.0),
         };
         let end = match joints[index] {
-            Joint::Cut(place) => place,
+            Joint::Cut(point) => point,
             Joint::Arc(_) => part.point(1.0),
         };
         let bulge = bulge_between(part, begin, end).ok_or_else(|| {
@@ -251,8 +251,8 @@ fn grown_ring(ring: &[Curve], by: f64, shortest: f64) -> Result<Vec<[f64; 3]>, R
 
 /// The intersection of two curves nearest to their common corner; `None` if there is none.
 fn meeting(first: &Curve, second: &Curve, corner: Vec2) -> Option<Vec2> {
-    let places = crossings(first, second);
-    places.into_iter().min_by(|a, b| (a - corner).norm().total_cmp(&(b - corner).norm()))
+    let points = crossings(first, second);
+    points.into_iter().min_by(|a, b| (a - corner).norm().total_cmp(&(b - corner).norm()))
 }
 
 /// The bulge of the part of a curve between two of its points; `None` if that is empty.

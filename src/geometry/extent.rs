@@ -157,10 +157,10 @@ pub(crate) fn numbers(shape: &ShapeSpec) -> Vec<Numbers<'_>> {
             Turn(s.rotation_deg),
         ],
         ShapeSpec::CurvedPolygon(s) => {
-            let places = |ring: &[[f64; 3]]| ring.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>();
+            let points = |ring: &[[f64; 3]]| ring.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>();
             vec![
-                Points("outer", places(&s.outer)),
-                Points("holes", places(&s.holes.concat())),
+                Points("outer", points(&s.outer)),
+                Points("holes", points(&s.holes.concat())),
                 Points("position", vec![s.position]),
                 Turn(s.rotation_deg),
             ]

@@ -89,9 +89,9 @@ mod tests {
     fn chords_lie_within_the_error_asked_for_and_no_denser_than_a_degree() {
         for (error, count) in [(0.0, 360), (1e-3, 71), (10.0, 24)] {
             let circle = Curve::circle(Vec2::zeros(), 1.0);
-            let places: Vec<f64> = samples(&circle, error).collect();
-            assert_eq!(places.len(), count);
-            let middle = 0.5 * (circle.point(places[0]) + circle.point(places[1]));
+            let parameters: Vec<f64> = samples(&circle, error).collect();
+            assert_eq!(parameters.len(), count);
+            let middle = 0.5 * (circle.point(parameters[0]) + circle.point(parameters[1]));
             assert!(1.0 - middle.norm() <= error.max(4e-5));
         }
     }

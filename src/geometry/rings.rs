@@ -105,7 +105,7 @@ pub(crate) fn meetings(rings: &[Vec<Curve>]) -> Vec<Vec2> {
         for (i, edge) in own.iter().enumerate() {
             for (other, j) in all.near(edge).filter(|&near| near > (ring, i)) {
                 let is_own = other == ring;
-                found.extend(if is_own { all.meeting(own, i, j) } else { all.first_place(edge, &rings[other][j]) });
+                found.extend(if is_own { all.meeting(own, i, j) } else { all.first_point(edge, &rings[other][j]) });
             }
         }
     }
@@ -171,7 +171,7 @@ impl<'a> Edges<'a> {
     fn crossings(&self, number: usize, regions: &[Region]) -> Vec<([usize; 2], Vec2)> {
         let mut found: BTreeMap<usize, Vec2> = BTreeMap::new();
         // By other ring, whether this one has parts inside it and outside it.
-        let mut seen: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
+        let mut parts: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
         for edge in &self.rings[number] {
             let near: Vec<(usize, usize)> = self.near(edge).filter(|&(other, _)| other > number).collect();
             let others: BTreeSet<usize> = near.iter().map(|&(other, _)| other).collect();
@@ -182,7 +182,7 @@ impl<'a> Edges<'a> {
                     if regions[other].curves.distance(x) <= self.tolerance {
                         continue;
                     }
-                    let both = seen.entry(other).or_default();
+                    let both = parts.entry(other).or_default();
                     both[usize::from(regions[other].winding.turns(x).abs() > 0.5)] = true;
                     if *both == [true; 2] {
                         found.entry(other).or_insert_with(|| part.point(0.0));
@@ -215,19 +215,19 @@ impl<'a> Edges<'a> {
         if let (Curve::Segment { a: p, b: q }, Curve::Segment { a: r, b: s }) = (a, b) {
             // Neighbors that fold back on each other are detected by the next edge.
             let do_meet = vertices.is_empty() && line(*p, *q).intersects(&line(*r, *s));
-            return do_meet.then(|| self.first_place(a, b).unwrap_or(*r));
+            return do_meet.then(|| self.first_point(a, b).unwrap_or(*r));
         }
         let near_vertex = AT_VERTEX * a.length().min(b.length());
-        let mut places = Vec::new();
-        meeting_places(a, b, self.tolerance, &mut places);
+        let mut parameters = Vec::new();
+        meeting_places(a, b, self.tolerance, &mut parameters);
         let away = |x: &Vec2| vertices.iter().all(|vertex| (x - vertex).norm() > near_vertex);
-        places.into_iter().map(|u| a.point(u)).find(away)
+        parameters.into_iter().map(|u| a.point(u)).find(away)
     }
 
-    fn first_place(&self, a: &Curve, b: &Curve) -> Option<Vec2> {
-        let mut places = Vec::new();
-        meeting_places(a, b, self.tolerance, &mut places);
-        places.into_iter().min_by(f64::total_cmp).map(|u| a.point(u))
+    fn first_point(&self, a: &Curve, b: &Curve) -> Option<Vec2> {
+        let mut parameters = Vec::new();
+        meeting_places(a, b, self.tolerance, &mut parameters);
+        parameters.into_iter().min_by(f64::total_cmp).map(|u| a.point(u))
     }
 
     /// Faults between a hole and the other rings, except previous holes.
@@ -378,9 +378,10 @@ mod tests {
                 };
                 (0..n).map(at).collect()
             };
-            let place = |seed: usize| Vec2::new(random(seed) - 0.5, random(seed + 1) - 0.5);
+            let position = |seed: usize| Vec2::new(random(seed) - 0.5, random(seed + 1) - 0.5);
             let outer = outline(8, 1000 * trial, Vec2::zeros(), 1.0);
-            let holes = [1, 2].map(|h| outline(4, 1000 * trial + 200 * h, place(1000 * trial + 300 * h) * 0.6, 0.25));
+            let holes =
+                [1, 2].map(|h| outline(4, 1000 * trial + 200 * h, position(1000 * trial + 300 * h) * 0.6, 0.25));
             let line_string = |points: &[[f64; 2]]| geo::LineString::from(points.to_vec());
             let polygon = geo::Polygon::new(line_string(&outer), holes.iter().map(|h| line_string(h)).collect());
             let bulged = |points: &[[f64; 2]]| ring(&points.iter().map(|p| [p[0], p[1], 0.0]).collect::<Vec<_>>());

@@ -248,13 +248,13 @@ impl Check {
             self.finite(key, points.as_flattened());
             return;
         }
-        let place = |i: usize| [points[i][0], points[i][1]];
-        if place(0) == place(count - 1) {
+        let point = |i: usize| [points[i][0], points[i][1]];
+        if point(0) == point(count - 1) {
             self.add(key, "the last point repeats the first", "remove the last point: rings close by themselves");
             return;
         }
-        if let Some(i) = (1..count).find(|&i| place(i) == place(i - 1)) {
-            let [x, y] = place(i);
+        if let Some(i) = (1..count).find(|&i| point(i) == point(i - 1)) {
+            let [x, y] = point(i);
             self.add(key, format!("points {} and {i} are both ({x:e}, {y:e})", i - 1), "remove one of them");
             return;
         }

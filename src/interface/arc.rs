@@ -49,8 +49,8 @@ impl Node {
     /// Signed distance (m) of `x`, positive on the side of the normal, and the arc length (m) from the node to the foot of the perpendicular.
     fn beside(&self, x: Vec2) -> (f64, f64) {
         let from = x - self.x;
-        let way = from.dot(&self.tangent);
-        (from.dot(&perpendicular(self.tangent)) - 0.5 * self.curvature * way * way, way)
+        let along = from.dot(&self.tangent);
+        (from.dot(&perpendicular(self.tangent)) - 0.5 * self.curvature * along * along, along)
     }
 }
 
@@ -166,15 +166,15 @@ impl Arc {
     }
 
     /// The point of the arc at the arc length `length` (m) from the foot of `from`, in the order of the points; clamped to the ends of the arc.
-    pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
+    pub(crate) fn walk(&self, from: Vec2, length: f64) -> Vec2 {
         if self.nodes.is_empty() {
-            return self.middle.walk(from, way);
+            return self.middle.walk(from, length);
         }
         let k = self.nearest(from);
         let step = self.lengths[1];
-        let place = k as f64 + (self.nodes[k].beside(from).1 + way) / step;
-        let node = place.round().clamp(0.0, (self.nodes.len() - 1) as f64);
-        let rest = ((place - node) * step).clamp(-step, step);
+        let position = k as f64 + (self.nodes[k].beside(from).1 + length) / step;
+        let node = position.round().clamp(0.0, (self.nodes.len() - 1) as f64);
+        let rest = ((position - node) * step).clamp(-step, step);
         let Node { x, tangent, curvature } = self.nodes[node as usize];
         x + rest * turned(tangent, 0.5 * rest * curvature)
     }

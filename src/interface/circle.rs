@@ -50,15 +50,15 @@ impl CircleFit {
     }
 
     /// The point of the circle at the arc length `length` (m) from the point nearest to `from`, in the order of the points.
-    pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
+    pub(crate) fn walk(&self, from: Vec2, length: f64) -> Vec2 {
         let normal = self.normal_at(from);
         let start = from - self.distance(from) * normal;
         let tangent = -perpendicular(normal);
-        let turn = self.curvature * way;
+        let turn = self.curvature * length;
         // sin(a)/a and (1 - cos(a))/a, regular at zero.
         let sine = if turn.abs() < 1e-4 { 1.0 - turn * turn / 6.0 } else { turn.sin() / turn };
         let versine = if turn.abs() < 1e-4 { 0.5 * turn } else { (1.0 - turn.cos()) / turn };
-        start + way * (sine * tangent + versine * normal)
+        start + length * (sine * tangent + versine * normal)
     }
 
     /// The same circle with its three parameters changed by `change` (1/m, rad, m).

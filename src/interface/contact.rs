@@ -198,10 +198,10 @@ pub(super) fn fitted_points<'a>(
         WettingSide::Right => (0..count).rev().collect(),
     };
     let run: Vec<usize> = walk.into_iter().skip_while(|i| !away(i)).take_while(away).collect();
-    let mut way = 0.0;
+    let mut arc_length = 0.0;
     let within = run.windows(2).take_while(|w| {
-        way += (line.points[w[1]] - line.points[w[0]]).norm();
-        way <= settings.window
+        arc_length += (line.points[w[1]] - line.points[w[0]]).norm();
+        arc_length <= settings.window
     });
     let used = within.count() + 1;
     match (run.first(), run.get(used - 1)) {
@@ -267,13 +267,13 @@ fn meet(arc: &Arc, from: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoi
     let direction = if side == WettingSide::Left { -1.0 } else { 1.0 };
     // A contact line is at most half the circle away.
     let longest = (LONGEST * exclusion).min(std::f64::consts::PI / arc.curvature_at(from).abs());
-    let at = |way: f64| arc.walk(from, direction * way);
-    let distance = |way: f64| wall(at(way)).distance;
+    let at = |arc_length: f64| arc.walk(from, direction * arc_length);
+    let distance = |arc_length: f64| wall(at(arc_length)).distance;
     // The wall is never nearer than its distance, so steps of that length cannot cross it; the minimum step crosses in the end.
     let least = 1e-3 * exclusion;
-    let (mut before, mut way, mut last, mut nearest) = (0.0, 0.0, f64::INFINITY, (f64::INFINITY, 0.0));
+    let (mut before, mut arc_length, mut last, mut nearest) = (0.0, 0.0, f64::INFINITY, (f64::INFINITY, 0.0));
     loop {
-        let d = distance(way);
+        let d = distance(arc_length);
         if d.is_nan() {
             return None;
         }
@@ -288,20 +288,20 @@ fn meet(arc: &Arc, from: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoi
             }
         }
         if d < nearest.0 {
-            nearest = (d, way);
+            nearest = (d, arc_length);
         }
         last = d;
-        before = way;
-        way += d.max(least);
-        if way > longest || d > nearest.0 + exclusion {
+        before = arc_length;
+        arc_length += d.max(least);
+        if arc_length > longest || d > nearest.0 + exclusion {
             return (nearest.0 < MISSED * exclusion).then(|| at(nearest.1));
         }
     }
     for _ in 0..60 {
-        let middle = 0.5 * (before + way);
-        if distance(middle) > 0.0 { before = middle } else { way = middle }
+        let middle = 0.5 * (before + arc_length);
+        if distance(middle) > 0.0 { before = middle } else { arc_length = middle }
     }
-    Some(at(0.5 * (before + way)))
+    Some(at(0.5 * (before + arc_length)))
 }
 
 /// Statistics of the angles of several contact lines.

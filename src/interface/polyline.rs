@@ -53,8 +53,8 @@ impl Polyline {
         let moved = |(i, kappa): (usize, f64)| {
             // A line that ends, or continues across a periodic side, has no neighbor there.
             let near = |j: usize| {
-                let way = self.points[j] - self.points[i];
-                if way.norm() < smoothing_length { way } else { Vec2::zeros() }
+                let offset = self.points[j] - self.points[i];
+                if offset.norm() < smoothing_length { offset } else { Vec2::zeros() }
             };
             let (before, after) = (near((i + count - 1) % count), near((i + 1) % count));
             let into_high = perpendicular(after - before).try_normalize(f64::EPSILON * smoothing_length);
@@ -78,11 +78,11 @@ impl Polyline {
         };
         let walk = |forward: bool| -> Vec<Vec2> {
             let mut found = Vec::new();
-            let (mut at, mut way) = (i, 0.0);
+            let (mut at, mut length) = (i, 0.0);
             while let Some(next) = step(at, forward) {
-                way += (self.points[next] - self.points[at]).norm();
+                length += (self.points[next] - self.points[at]).norm();
                 // A closed line shorter than the window must not be traversed twice.
-                if way > reach || found.len() >= count / 2 {
+                if length > reach || found.len() >= count / 2 {
                     break;
                 }
                 found.push(self.points[next]);

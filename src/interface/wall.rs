@@ -48,18 +48,18 @@ pub fn clip(lines: &[Polyline], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polylin
 }
 
 fn clip_line(line: &Polyline, wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
-    let mut places: Vec<(Vec2, f64)> = line.points.iter().map(|&p| (p, wall(p).distance)).collect();
-    let Some(solid) = places.iter().position(|(_, d)| *d <= 0.0) else { return vec![line.clone()] };
+    let mut vertices: Vec<(Vec2, f64)> = line.points.iter().map(|&p| (p, wall(p).distance)).collect();
+    let Some(solid) = vertices.iter().position(|(_, d)| *d <= 0.0) else { return vec![line.clone()] };
     if line.closed {
         // A closed line starts in the solid, so that it is not cut at its arbitrary first vertex.
-        places.rotate_left(solid);
-        places.push(places[0]);
+        vertices.rotate_left(solid);
+        vertices.push(vertices[0]);
     }
     let mut pieces = Vec::new();
     let mut piece: Vec<Vec2> = Vec::new();
-    for (k, &(here, d)) in places.iter().enumerate() {
-        if k > 0 && (places[k - 1].1 > 0.0) != (d > 0.0) {
-            let (before, d_before) = places[k - 1];
+    for (k, &(here, d)) in vertices.iter().enumerate() {
+        if k > 0 && (vertices[k - 1].1 > 0.0) != (d > 0.0) {
+            let (before, d_before) = vertices[k - 1];
             piece.push(before + (here - before) * (d_before / (d_before - d)));
         }
         if d > 0.0 {

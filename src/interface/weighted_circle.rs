@@ -83,8 +83,8 @@ impl WeightedCircle {
         if steep == 0.0 || square < 0.0 {
             return None;
         }
-        let way = 2.0 * off / (steep + square.sqrt());
-        let closest = Vec2::new(u, v) - way / steep * slope(u, v);
+        let t = 2.0 * off / (steep + square.sqrt());
+        let closest = Vec2::new(u, v) - t / steep * slope(u, v);
         let normal = -slope(closest.x, closest.y).try_normalize(0.0)?;
         let turned = |y: Vec2| y.x * self.tangent + y.y * self.normal;
         Some((turned(closest), turned(normal)))

@@ -11,9 +11,9 @@ const SHAPES: usize = 6;
 /// Profiles later than this fraction of the run no longer depend on the initial shape.
 const FORGETTING: f64 = 1.0e-3;
 /// Number of points of the self-similar shape.
-const PLACES: i32 = 200;
+const SIMILARITY_POINTS: i32 = 200;
 
-const PLACE: &str = "x in m";
+const POSITION: &str = "x in m";
 const TIME: &str = "time in s";
 
 /// All diagrams for which there are data.
@@ -52,8 +52,8 @@ fn space_time(observed: &ObservedFilm) -> Diagram {
     };
     let line = history.records.iter().map(|record| [record.position * scales.length, record.time * scales.time]);
     let traces = vec![trace("contact line", Stroke::Full, line)];
-    let title = "Height over place and time";
-    Diagram { name: "space-time", title, x: linear(PLACE), y: logarithmic(TIME), map: Some(map), traces }
+    let title = "Height over position and time";
+    Diagram { name: "space-time", title, x: linear(POSITION), y: logarithmic(TIME), map: Some(map), traces }
 }
 
 /// Tanner's law through the last point.
@@ -66,17 +66,17 @@ fn tanner(points: &[[f64; 2]], exponent: f64, name: &str) -> Option<Trace> {
 fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
     let (scales, frames) = (observed.surroundings.scales, &observed.history.frames);
     let count = frames.first()?.ways.len();
-    let way = |i: usize| {
+    let trajectory = |i: usize| {
         frames.iter().filter_map(move |frame| Some([frame.time * scales.time, frame.ways.get(i)? * scales.length]))
     };
-    let last: Vec<[f64; 2]> = way(count.checked_sub(1)?).collect();
-    let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, way(i))).collect();
+    let last: Vec<[f64; 2]> = trajectory(count.checked_sub(1)?).collect();
+    let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, trajectory(i))).collect();
     if observed.surroundings.rest.is_none() {
         traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
     }
     traces.push(trace("last particle", Stroke::Full, last));
     let title = "Ways of particles right of the middle";
-    Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces })
+    Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces })
 }
 
 fn contact_line(observed: &ObservedFilm) -> Diagram {
@@ -98,7 +98,7 @@ fn contact_line(observed: &ObservedFilm) -> Diagram {
     }
     traces.push(trace("contact line", Stroke::Full, line));
     let title = "The contact line over time";
-    Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces }
+    Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces }
 }
 
 /// Profiles in self-similar variables, in which they collapse, and the solution of the equation without regularization.
@@ -110,20 +110,21 @@ fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
     let shape = fit(&profile, time, foot.position)?;
     let frames: Vec<_> = observed.history.frames.iter().filter(|frame| frame.time > FORGETTING * time).collect();
     let step = frames.len().div_ceil(SHAPES).max(1);
-    let places = observed.frame_places();
+    let positions = observed.frame_places();
     let mut traces: Vec<Trace> = frames
         .iter()
         .rev()
         .step_by(step)
         .map(|frame| {
             let stretch = frame.time.powf(EXPONENT);
-            let points = places.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
+            let points = positions.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
             let name = format!("{} s", two_digits(frame.time * observed.surroundings.scales.time));
             trace(name, Stroke::Full, points.map(|(x, h)| [x / stretch, h * stretch]))
         })
         .collect();
     let end = foot.position / time.powf(EXPONENT);
-    let eta: Vec<f64> = (0..=PLACES).map(|i| 1.2 * end * f64::from(i) / f64::from(PLACES)).collect();
+    let eta: Vec<f64> =
+        (0..=SIMILARITY_POINTS).map(|i| 1.2 * end * f64::from(i) / f64::from(SIMILARITY_POINTS)).collect();
     let mut law = shoot(shape.height, shape.curvature, &eta);
     // It never touches down: beyond its minimum it rises again, where there is no droplet any more.
     let lowest = (1..law.len()).find(|&i| law[i] > law[i - 1]).unwrap_or(law.len());
@@ -147,7 +148,7 @@ fn rest(observed: &ObservedFilm) -> Option<Diagram> {
         trace("at the end", Stroke::Full, found.step_by(every)),
         trace("closed form", Stroke::Dashed, known.step_by(every)),
     ];
-    let (x, y) = (linear(PLACE), linear("height in m"));
+    let (x, y) = (linear(POSITION), linear("height in m"));
     Some(Diagram { name: "rest", title: "The droplet at rest", x, y, map: None, traces })
 }
 

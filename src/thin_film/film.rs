@@ -102,11 +102,11 @@ impl Film {
     }
 
     /// The profile at ascending positions; on a grid at its nodes.
-    pub(crate) fn profile(&self, places: &[f64]) -> Profile {
+    pub(crate) fn profile(&self, positions: &[f64]) -> Profile {
         match self {
             Self::Particles { method, state } => {
-                let s = method.profile(&state.x, places);
-                Profile { x: places.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
+                let s = method.profile(&state.x, positions);
+                Profile { x: positions.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
             }
             Self::Grid(film) => {
                 let (grid, height) = (film.grid(), film.state.height.clone());
@@ -117,23 +117,23 @@ impl Film {
     }
 
     /// Heights at ascending positions, interpolated linearly between nodes of a grid; 0 beyond its ends.
-    pub(crate) fn heights(&self, places: &[f64]) -> Vec<f64> {
+    pub(crate) fn heights(&self, positions: &[f64]) -> Vec<f64> {
         match self {
-            Self::Particles { method, state } => method.profile(&state.x, places).height,
+            Self::Particles { method, state } => method.profile(&state.x, positions).height,
             Self::Grid(film) => {
                 let (x, height) = (film.grid().nodes(), &film.state.height);
-                let at = |&place: &f64| {
-                    let after = x.partition_point(|&x| x < place);
+                let at = |&position: &f64| {
+                    let after = x.partition_point(|&x| x < position);
                     match after {
-                        0 => x.first().filter(|&&x| x == place).map_or(0.0, |_| height[0]),
+                        0 => x.first().filter(|&&x| x == position).map_or(0.0, |_| height[0]),
                         _ if after == x.len() => 0.0,
                         _ => {
-                            let share = (place - x[after - 1]) / (x[after] - x[after - 1]);
+                            let share = (position - x[after - 1]) / (x[after] - x[after - 1]);
                             height[after - 1] + share * (height[after] - height[after - 1])
                         }
                     }
                 };
-                places.iter().map(at).collect()
+                positions.iter().map(at).collect()
             }
         }
     }

@@ -114,8 +114,8 @@ impl History {
 
 /// Whether a time is the first one in its interval of a decade.
 fn is_next(per_decade: f64, time: f64, last: Option<f64>) -> bool {
-    let place = |time: f64| (per_decade * (time / FIRST).log10()).floor();
-    time >= FIRST && last.is_none_or(|last| place(time) > place(last))
+    let interval = |time: f64| (per_decade * (time / FIRST).log10()).floor();
+    time >= FIRST && last.is_none_or(|last| interval(time) > interval(last))
 }
 
 #[cfg(test)]

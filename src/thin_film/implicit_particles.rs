@@ -113,9 +113,9 @@ impl Implicit for ParticleMethod {
         let rows = BLOCK * x.len();
         self.smooth(x);
         if self.pattern.is_none() {
-            let mut places = Vec::new();
-            self.entries(x, shift, |row, column, _| places.push((row, column)));
-            self.pattern = Pattern::new(rows, places).ok();
+            let mut indices = Vec::new();
+            self.entries(x, shift, |row, column, _| indices.push((row, column)));
+            self.pattern = Pattern::new(rows, indices).ok();
         }
         let mut values = Vec::new();
         self.entries(x, shift, |_, _, value| values.push(value));
@@ -135,9 +135,9 @@ impl Implicit for ParticleMethod {
 
     fn solve(system: &mut ParticleSystem, rhs: &mut [f64]) {
         system.extended.fill(0.0);
-        system.extended.iter_mut().step_by(BLOCK).zip(rhs.iter()).for_each(|(place, value)| *place = *value);
+        system.extended.iter_mut().step_by(BLOCK).zip(rhs.iter()).for_each(|(slot, value)| *slot = *value);
         system.factors.solve(&mut system.extended);
-        rhs.iter_mut().zip(system.extended.iter().step_by(BLOCK)).for_each(|(value, place)| *value = *place);
+        rhs.iter_mut().zip(system.extended.iter().step_by(BLOCK)).for_each(|(value, slot)| *value = *slot);
     }
 }
 

@@ -29,10 +29,10 @@ fn contact_line(observed: &ObservedFilm) -> Vec<Measure> {
             "contact-line-position",
             position,
             "m",
-            "where the tangent at the steepest place on the right meets the wall",
+            "where the tangent at the steepest point on the right meets the wall",
         ),
         measure("center-height", film.center_height() * scales.height, "m", "height at x = 0"),
-        measure("contact-angle-deg", angle, "deg", "angle of the tangent at the steepest place on the right"),
+        measure("contact-angle-deg", angle, "deg", "angle of the tangent at the steepest point on the right"),
     ];
     let droplets = observed.profile().peaks();
     found.push(measure("droplet-count", droplets as f64, "", "maxima of the film above a twentieth of the highest"));
@@ -52,7 +52,7 @@ fn rest(observed: &ObservedFilm) -> Vec<Measure> {
     let mut found = Vec::new();
     if let Some(rest) = surroundings.rest {
         let slope = observed.foot().map_or(f64::NAN, |foot| foot.slope / rest);
-        found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest place over the slope at rest"));
+        found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest point over the slope at rest"));
     }
     if let Some(sides) = surroundings.cap_sides {
         let profile = observed.profile();

@@ -62,8 +62,8 @@ impl ObservedFilm {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
         let wanted = POINTS_PER_FILTER * (right - left) / self.surroundings.resolution;
         let count = wanted.ceil().clamp(2.0, MOST_POINTS);
-        let places: Vec<f64> = (0..=count as usize).map(|i| left + (right - left) * i as f64 / count).collect();
-        self.film.profile(&places)
+        let positions: Vec<f64> = (0..=count as usize).map(|i| left + (right - left) * i as f64 / count).collect();
+        self.film.profile(&positions)
     }
 
     /// The scaled contact line on the right; `None` if its tangent meets the wall outside the domain, as for a film that covers all of it.

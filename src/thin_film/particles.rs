@@ -112,8 +112,8 @@ impl ParticleMethod {
     }
 
     /// h̄, h̄ₓ, h̄ₓₓ at ascending positions.
-    pub fn profile(&self, x: &[f64], places: &[f64]) -> Smoothed {
-        self.sums.at_places(x, &self.weight, places)
+    pub fn profile(&self, x: &[f64], positions: &[f64]) -> Smoothed {
+        self.sums.at_places(x, &self.weight, positions)
     }
 
     /// ⟨h, h̄⟩ = Σ wᵢ h̄ᵢ from the last sums.

@@ -68,8 +68,8 @@ pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     let start = vec![0.0, height, 0.0, curvature];
     let mut state = Integrator::new(FilmIntegrator::Explicit, tolerance, start, 1.0e-3);
     let mut f = Vec::with_capacity(eta.len());
-    for &place in eta {
-        if state.run(&mut Shooting, place).is_err() {
+    for &position in eta {
+        if state.run(&mut Shooting, position).is_err() {
             break;
         }
         f.push(state.x[1]);

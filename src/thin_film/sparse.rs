@@ -23,9 +23,9 @@ pub struct TooLarge(pub usize);
 
 /// The sparsity pattern of a matrix with its elimination order.
 #[derive(Clone)]
-pub(crate) struct Pattern(Arc<Places>);
+pub(crate) struct Pattern(Arc<Structure>);
 
-struct Places {
+struct Structure {
     matrix: SymbolicSparseColMat<Count>,
     order: Argsort<Count>,
     elimination: SymbolicLu<Count>,
@@ -47,23 +47,23 @@ struct RankOne {
 }
 
 impl Pattern {
-    /// The pattern of a square matrix whose entries are given as row and column, in the order of `places`.
-    pub(crate) fn new(size: usize, places: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
+    /// The pattern of a square matrix whose entries are given as row and column, in the order of `indices`.
+    pub(crate) fn new(size: usize, indices: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
         factor_in_one_thread();
         let pair = |(row, column): (usize, usize)| Pair { row: row as Count, col: column as Count };
-        let pairs: Vec<Pair<Count, Count>> = places.into_iter().map(pair).collect();
+        let pairs: Vec<Pair<Count, Count>> = indices.into_iter().map(pair).collect();
         if size > MOST_ENTRIES || pairs.len() > MOST_ENTRIES {
             return Err(TooLarge(size));
         }
         let (matrix, order) =
             SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).map_err(|_| TooLarge(size))?;
         let elimination = SymbolicLu::try_new(matrix.as_ref()).map_err(|_| TooLarge(size))?;
-        Ok(Self(Arc::new(Places { matrix, order, elimination })))
+        Ok(Self(Arc::new(Structure { matrix, order, elimination })))
     }
 
     /// Factors of the matrix with these values in the order of the pattern; `None` if it is singular or not finite.
     pub(crate) fn factor(&self, values: &[f64]) -> Option<Factors> {
-        let Places { matrix, order, elimination } = self.0.as_ref();
+        let Structure { matrix, order, elimination } = self.0.as_ref();
         if !values.iter().all(|value| value.is_finite()) {
             return None;
         }
@@ -109,22 +109,22 @@ mod tests {
 
     /// A cyclic matrix without diagonal dominance, with every entry given in two parts.
     fn ring(size: usize) -> (Vec<(usize, usize)>, Vec<f64>) {
-        let mut places = Vec::new();
+        let mut indices = Vec::new();
         let mut values = Vec::new();
         for row in 0..size {
             for offset in 0..5 {
                 let column = (row + size + offset - 2) % size;
                 let value = (1.0 + (3 * row * row + 7 * column + 5 * row * column) as f64).sin();
-                places.extend([(row, column); 2]);
+                indices.extend([(row, column); 2]);
                 values.extend([0.3 * value, 0.7 * value]);
             }
         }
-        (places, values)
+        (indices, values)
     }
 
-    fn times(places: &[(usize, usize)], values: &[f64], x: &[f64]) -> Vec<f64> {
+    fn times(indices: &[(usize, usize)], values: &[f64], x: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; x.len()];
-        places.iter().zip(values).for_each(|(&(row, column), value)| product[row] += value * x[column]);
+        indices.iter().zip(values).for_each(|(&(row, column), value)| product[row] += value * x[column]);
         product
     }
 
@@ -135,10 +135,10 @@ mod tests {
     #[test]
     fn a_solved_system_gives_back_its_right_side_with_and_without_a_matrix_of_rank_one() {
         for size in [5, 12, 80] {
-            let (places, values) = ring(size);
+            let (indices, values) = ring(size);
             let x: Vec<f64> = (0..size).map(|i| 1.0 + (0.7 * i as f64).cos()).collect();
-            let factors = Pattern::new(size, places.clone()).unwrap().factor(&values).unwrap();
-            let product = times(&places, &values, &x);
+            let factors = Pattern::new(size, indices.clone()).unwrap().factor(&values).unwrap();
+            let product = times(&indices, &values, &x);
             let mut solved = product.clone();
             factors.solve(&mut solved);
             // Rounding times a condition number of several thousand.
@@ -155,12 +155,12 @@ mod tests {
 
     #[test]
     fn a_pattern_serves_many_matrices() {
-        let (places, values) = ring(30);
-        let pattern = Pattern::new(30, places.clone()).unwrap();
+        let (indices, values) = ring(30);
+        let pattern = Pattern::new(30, indices.clone()).unwrap();
         for scale in [1.0, -2.5, 1.0e6] {
             let scaled: Vec<f64> = values.iter().map(|value| scale * value).collect();
             let x: Vec<f64> = (0..30).map(|i| f64::from(i).sqrt()).collect();
-            let mut solved = times(&places, &scaled, &x);
+            let mut solved = times(&indices, &scaled, &x);
             pattern.factor(&scaled).unwrap().solve(&mut solved);
             assert!(largest_difference(&solved, &x) < 1.0e-10, "{scale}");
         }

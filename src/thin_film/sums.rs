@@ -109,30 +109,30 @@ impl FastSums {
     }
 
     /// h̄, h̄ₓ and h̄ₓₓ at other ascending positions; the third derivative, which jumps at particles, is left at zero.
-    pub(crate) fn at_places(&self, x: &[f64], weight: &[f64], places: &[f64]) -> Smoothed {
+    pub(crate) fn at_places(&self, x: &[f64], weight: &[f64], positions: &[f64]) -> Smoothed {
         let rate = -1.0 / self.kernel.alpha();
         let factors = Factors::new(&self.kernel);
         let moved = |sums: OneSided, gap: f64| sums.moved(gap, (rate * gap).exp());
-        let mut out = Smoothed::new(places.len());
+        let mut out = Smoothed::new(positions.len());
         // Sums at the last particle passed, including that particle.
         let (mut sums, mut next) = (OneSided::default(), 0);
-        for (i, &place) in places.iter().enumerate() {
-            while next < x.len() && x[next] <= place {
+        for (i, &position) in positions.iter().enumerate() {
+            while next < x.len() && x[next] <= position {
                 let gap = if next == 0 { 0.0 } else { x[next] - x[next - 1] };
                 sums = moved(sums, gap).with(weight[next]);
                 next += 1;
             }
-            let here = if next == 0 { sums } else { moved(sums, place - x[next - 1]) };
+            let here = if next == 0 { sums } else { moved(sums, position - x[next - 1]) };
             (out.height[i], out.slope[i]) = (here.plain, here.weighted);
         }
         let (mut sums, mut next) = (OneSided::default(), x.len());
-        for (i, &place) in places.iter().enumerate().rev() {
-            while next > 0 && x[next - 1] > place {
+        for (i, &position) in positions.iter().enumerate().rev() {
+            while next > 0 && x[next - 1] > position {
                 let gap = if next == x.len() { 0.0 } else { x[next] - x[next - 1] };
                 sums = moved(sums, gap).with(weight[next - 1]);
                 next -= 1;
             }
-            let right = if next == x.len() { sums } else { moved(sums, x[next] - place) };
+            let right = if next == x.len() { sums } else { moved(sums, x[next] - position) };
             let (a, b) = (out.height[i], out.slope[i]);
             let (both, far) = (factors.alpha * (a + right.plain), b + right.weighted);
             out.height[i] = factors.height * (both + far);
@@ -206,13 +206,13 @@ mod tests {
     fn places_between_particles_see_the_direct_sums() {
         let (x, weight) = particles(300, 1.0);
         let kernel = Kernel::new(0.05);
-        let mut places: Vec<f64> = (0..400).map(|i| -1.6 + 0.0081 * f64::from(i)).collect();
-        places.extend_from_slice(&x);
-        places.sort_by(f64::total_cmp);
-        let found = FastSums::new(kernel).at_places(&x, &weight, &places);
+        let mut positions: Vec<f64> = (0..400).map(|i| -1.6 + 0.0081 * f64::from(i)).collect();
+        positions.extend_from_slice(&x);
+        positions.sort_by(f64::total_cmp);
+        let found = FastSums::new(kernel).at_places(&x, &weight, &positions);
         let sum = |order: Order| -> Vec<f64> {
             let at = |&p: &f64| x.iter().zip(&weight).map(|(&xj, &wj)| wj * kernel.at(order, p - xj)).sum();
-            places.iter().map(at).collect()
+            positions.iter().map(at).collect()
         };
         assert!(difference(&found.height, &sum(Order::Value)) < 1.0e-12);
         assert!(difference(&found.slope, &sum(Order::First)) < 1.0e-12);

@@ -31,30 +31,30 @@ pub(super) fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], toleran
     if !leaves(0) && !leaves(1) {
         return vec![*curve];
     }
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     let far = frame.grown(bounds.size().norm() + frame.size().norm());
     for i in (0..2).filter(|&i| cuts(i)) {
         for level in [frame.min[i], frame.max[i]] {
             let (mut a, mut b) = (far.min, far.max);
             (a[i], b[i]) = (level, level);
-            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut places);
+            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut parameters);
         }
     }
-    places.retain(|u| u.is_finite());
-    places.sort_by(f64::total_cmp);
+    parameters.retain(|u| u.is_finite());
+    parameters.sort_by(f64::total_cmp);
     if curve.is_closed() {
-        match places.first() {
-            Some(&first) => places.push(first + 1.0),
-            None => places = vec![0.0, 1.0],
+        match parameters.first() {
+            Some(&first) => parameters.push(first + 1.0),
+            None => parameters = vec![0.0, 1.0],
         }
     } else {
-        places.insert(0, 0.0);
-        places.push(1.0);
+        parameters.insert(0, 0.0);
+        parameters.push(1.0);
     }
     let shortest = tolerance / curve.length();
     let mut parts = Vec::new();
-    let mut from = places[0];
-    for &to in &places[1..] {
+    let mut from = parameters[0];
+    for &to in &parameters[1..] {
         if to - from > shortest {
             let part = if (from, to) == (0.0, 1.0) { *curve } else { curve.part(from, to) };
             from = to;

@@ -78,15 +78,15 @@ impl Classifier {
         if ends == [End::Closed; 2] {
             let length: f64 = passage.iter().map(|stretch| stretch.axis.length()).sum();
             return [
-                place(walls, &passage, 0.25 * length).map(Kind::Saddle),
-                place(walls, &passage, 0.75 * length).map(Kind::Maximum),
+                opposite_at(walls, &passage, 0.25 * length).map(Kind::Saddle),
+                opposite_at(walls, &passage, 0.75 * length).map(Kind::Maximum),
             ]
             .into_iter()
             .flatten()
             .collect();
         }
         let length: f64 = passage.iter().map(|stretch| stretch.axis.length()).sum();
-        let middle = place(walls, &passage, 0.5 * length).unwrap_or(*at);
+        let middle = opposite_at(walls, &passage, 0.5 * length).unwrap_or(*at);
         decide(ends, &middle).into_iter().collect()
     }
 
@@ -128,7 +128,7 @@ fn decide(ends: [End; 2], at: &Opposite) -> Option<Kind> {
 }
 
 /// The opposite points at an arc length (m) along a passage.
-fn place(walls: &Walls, passage: &[Stretch], length: f64) -> Option<Opposite> {
+fn opposite_at(walls: &Walls, passage: &[Stretch], length: f64) -> Option<Opposite> {
     let mut passed = 0.0;
     for (k, stretch) in passage.iter().enumerate() {
         let here = stretch.axis.length();
@@ -265,14 +265,14 @@ fn first_hit(walls: &Walls, axis: &Curve, along: &[Along; 2], half: f64) -> (f64
         |x: Vec2| along.iter().map(|along| (contact(walls, along, x).point - x).norm()).fold(f64::INFINITY, f64::min);
     let middle = axis.point(0.5);
     let reach = 0.5 * axis.length() + half + slack(walls, half);
-    let mut places = vec![0.0, 1.0];
+    let mut parameters = vec![0.0, 1.0];
     for (wall, shift) in walls.within(middle, reach) {
         for offset in offsets(&walls.curve(wall, shift), half) {
-            meeting_places(axis, &offset, walls.tolerance, &mut places);
+            meeting_places(axis, &offset, walls.tolerance, &mut parameters);
         }
     }
-    places.sort_by(f64::total_cmp);
-    for pair in places.windows(2) {
+    parameters.sort_by(f64::total_cmp);
+    for pair in parameters.windows(2) {
         let shortest = 10.0 * walls.tolerance / axis.length();
         let x = axis.point(0.5 * (pair[0] + pair[1]));
         if pair[1] - pair[0] > shortest && walls.distance(x) < half.min(of_both(x)) - 2.0 * slack(walls, half) {
@@ -301,19 +301,19 @@ fn offsets(curve: &Curve, distance: f64) -> Vec<Curve> {
 fn leaving(walls: &Walls, axis: &Curve, until: f64) -> Option<f64> {
     let domain = walls.domain;
     let far = domain.grown(domain.size().norm());
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     for i in (0..2).filter(|&i| !walls.periodic[i]) {
         for level in [domain.min[i], domain.max[i]] {
             let (mut a, mut b) = (far.min, far.max);
             (a[i], b[i]) = (level, level);
-            meeting_places(axis, &Curve::Segment { a, b }, walls.tolerance, &mut places);
+            meeting_places(axis, &Curve::Segment { a, b }, walls.tolerance, &mut parameters);
         }
     }
-    places.retain(|&u| u <= until);
-    places.sort_by(f64::total_cmp);
-    places.push(until);
+    parameters.retain(|&u| u <= until);
+    parameters.sort_by(f64::total_cmp);
+    parameters.push(until);
     let mut from = 0.0;
-    for &to in &places {
+    for &to in &parameters {
         let x = axis.point(0.5 * (from + to));
         if to > from && !walls.is_within(x) {
             return Some(from);

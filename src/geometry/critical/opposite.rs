@@ -101,13 +101,13 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
             found.push(opposite);
         }
     };
-    if let Some(u) = level_place(&curves[0], &curves[1], pair.between) {
+    if let Some(u) = level_parameters(&curves[0], &curves[1], pair.between) {
         offer(u);
     }
     if !include_ends {
         return found;
     }
-    interior_places(&curves[0], &curves[1], &mut offer);
+    interior_points(&curves[0], &curves[1], &mut offer);
     let ends = |curve: &Curve| if curve.is_closed() { &[][..] } else { &[0.0, 1.0][..] };
     for &u in ends(&curves[0]) {
         for w in normals_through(&curves[1], curves[0].point(u)) {
@@ -134,7 +134,7 @@ fn faces(curve: &Curve, u: f64, v: Vec2) -> bool {
 }
 
 /// Proposes the opposite points interior to two pieces whose distance is not constant.
-fn interior_places(a: &Curve, b: &Curve, offer: &mut impl FnMut([f64; 2])) {
+fn interior_points(a: &Curve, b: &Curve, offer: &mut impl FnMut([f64; 2])) {
     let direction = match (*a, *b) {
         (Curve::Segment { .. }, Curve::Segment { .. }) => return,
         (Curve::Segment { a, b }, Curve::Arc { .. }) | (Curve::Arc { .. }, Curve::Segment { a, b }) => {
@@ -161,12 +161,12 @@ fn crossings(curve: &Curve, anchor: Vec2, direction: Vec2) -> [Option<f64>; 2] {
             let u = (anchor - a).dot(&(b - a)) / (b - a).norm_squared();
             [(u > 0.0 && u < 1.0).then_some(u), None]
         }
-        Curve::Arc { .. } => [angle_place(curve, direction), angle_place(curve, -direction)],
+        Curve::Arc { .. } => [angle_parameter(curve, direction), angle_parameter(curve, -direction)],
     }
 }
 
 /// The parameter of an arc's point in the given `direction` from its center.
-fn angle_place(arc: &Curve, direction: Vec2) -> Option<f64> {
+fn angle_parameter(arc: &Curve, direction: Vec2) -> Option<f64> {
     let Curve::Arc { start, sweep, .. } = *arc else { return None };
     let turned = ((direction.y.atan2(direction.x) - start) * sweep.signum()).rem_euclid(std::f64::consts::TAU);
     let u = turned / sweep.abs();
@@ -179,18 +179,18 @@ fn angle_place(arc: &Curve, direction: Vec2) -> Option<f64> {
 
 /// Parameters of a piece at which its normal line passes through `x`.
 fn normals_through(curve: &Curve, x: Vec2) -> impl Iterator<Item = f64> + use<> {
-    let places = match *curve {
+    let parameters = match *curve {
         Curve::Segment { .. } => crossings(curve, x, Vec2::zeros()),
         Curve::Arc { center, .. } => match (x - center).try_normalize(0.0) {
             Some(direction) => crossings(curve, center, direction),
             None => [None, None],
         },
     };
-    places.into_iter().flatten()
+    parameters.into_iter().flatten()
 }
 
 /// Parameters of two pieces between which the wall distance is constant along the medial axis, as near as possible to the point `near`.
-fn level_place(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
+fn level_parameters(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
     // Minimum distance from the ends of the common part, as a fraction of it.
     const WITHIN: f64 = 1e-3;
     match (*a, *b) {
@@ -228,7 +228,7 @@ fn level_place(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
 fn common_angle(a: &Curve, b: &Curve, center: Vec2, near: Vec2, within: f64) -> Option<[f64; 2]> {
     let both = |x: Vec2| {
         let direction = x - center;
-        Some([angle_place(a, direction)?, angle_place(b, direction)?])
+        Some([angle_parameter(a, direction)?, angle_parameter(b, direction)?])
     };
     if let Some(found) = both(near) {
         return Some(found);

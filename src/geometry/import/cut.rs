@@ -202,11 +202,11 @@ impl Line {
             })
             .collect();
         for (curve, &[x, y, bulge]) in bulged_ring(&corners).zip(&corners) {
-            let mut places = vec![0.0];
+            let mut parameters = vec![0.0];
             let end = self.near / curve.length();
-            places.extend(crossings(&curve, self.axis, self.at).into_iter().filter(|u| end < *u && *u < 1.0 - end));
-            places.push(1.0);
-            for (k, pair) in places.windows(2).enumerate() {
+            parameters.extend(crossings(&curve, self.axis, self.at).into_iter().filter(|u| end < *u && *u < 1.0 - end));
+            parameters.push(1.0);
+            for (k, pair) in parameters.windows(2).enumerate() {
                 let mut from = if k == 0 { Vec2::new(x, y) } else { curve.point(pair[0]) };
                 if k > 0 {
                     from[self.axis] = self.at;
@@ -250,16 +250,16 @@ impl Line {
         let along = 1 - self.axis;
         // The solid is on the left of a run that leaves the window, so that its section extends upwards on the right and the bottom side.
         let end_is_lower = self.is_upper == (self.axis == 0);
-        let mut places: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * runs.len());
+        let mut ends: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * runs.len());
         for (i, run) in runs.iter().enumerate() {
-            places.push((self.start(run)[along], false, i));
-            places.push((run.end[along], true, i));
+            ends.push((self.start(run)[along], false, i));
+            ends.push((run.end[along], true, i));
         }
-        places.sort_by(|a, b| {
+        ends.sort_by(|a, b| {
             a.0.total_cmp(&b.0).then((a.1 != end_is_lower).cmp(&(b.1 != end_is_lower))).then(a.2.cmp(&b.2))
         });
         let mut next = vec![usize::MAX; runs.len()];
-        for pair in places.chunks(2) {
+        for pair in ends.chunks(2) {
             let [low, high] = pair else { return None };
             let (end, start) = if end_is_lower { (low, high) } else { (high, low) };
             if !end.1 || start.1 {

@@ -63,10 +63,10 @@ fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
                 continue;
             }
             for (one, other) in [(a, b), (b, a)] {
-                let mut places = Vec::new();
-                meeting_places(&one.curve, &other.curve, tolerance, &mut places);
+                let mut parameters = Vec::new();
+                meeting_places(&one.curve, &other.curve, tolerance, &mut parameters);
                 let end = tolerance / one.curve.length();
-                if let Some(&u) = places.iter().find(|u| end < **u && **u < 1.0 - end) {
+                if let Some(&u) = parameters.iter().find(|u| end < **u && **u < 1.0 - end) {
                     let here = (one.ring, one.number, one.curve.point(u));
                     if found.is_none_or(|known| (here.0, here.1) < (known.0, known.1)) {
                         found = Some(here);

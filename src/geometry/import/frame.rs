@@ -39,15 +39,15 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, notes: &mut Notes) -> Option
         return None;
     }
     let (place, paint) = (outlines[largest].place.clone(), &outlines[largest].paint);
-    let told = format!("{place}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
+    let found = format!("{place}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
     if inside.iter().any(|&i| outlines[i].paint == *paint) {
         notes.add(format!(
-            "{told} on its own layer: it is read as solid, with them as holes. If it is the frame of the chip, put it on a layer of its own."
+            "{found} on its own layer: it is read as solid, with them as holes. If it is the frame of the chip, put it on a layer of its own."
         ));
         return None;
     }
     notes.add(format!(
-        "{told}: it is read as the frame of the chip, whose inside is the pore. If it is solid, give it a fill."
+        "{found}: it is read as the frame of the chip, whose inside is the pore. If it is solid, give it a fill."
     ));
     outlines.remove(largest);
     Some(boxes[largest])

@@ -40,17 +40,17 @@ pub(crate) fn nested(rings: &[Ring], rule: FillRule) -> Vec<Nested> {
     let sides: Vec<(bool, bool)> =
         (0..rings.len()).map(|i| (is_filled(&containing[i], None), is_filled(&containing[i], Some(i)))).collect();
     let mut found: Vec<Nested> = Vec::new();
-    let mut place = vec![usize::MAX; rings.len()];
+    let mut index = vec![usize::MAX; rings.len()];
     for i in (0..rings.len()).filter(|&i| sides[i] == (false, true)) {
-        place[i] = found.len();
+        index[i] = found.len();
         found.push(Nested { outer: i, holes: Vec::new() });
     }
     for i in (0..rings.len()).filter(|&i| sides[i] == (true, false)) {
         // The innermost enclosing outer ring: the one contained in most others.
         let parent =
-            containing[i].iter().copied().filter(|&j| place[j] != usize::MAX).max_by_key(|&j| containing[j].len());
+            containing[i].iter().copied().filter(|&j| index[j] != usize::MAX).max_by_key(|&j| containing[j].len());
         if let Some(parent) = parent {
-            found[place[parent]].holes.push(i);
+            found[index[parent]].holes.push(i);
         }
     }
     found

@@ -75,7 +75,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         let with = rings.into_iter().zip(changed);
         rings = with.flat_map(|(ring, new)| new.unwrap_or_else(|| vec![ring])).collect();
     }
-    for (places, told) in [
+    for (places, text) in [
         (united, "outlines that overlap are united"),
         (
             holes,
@@ -85,7 +85,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         if !places.is_empty() {
             let more = if places.len() > NAMED { ", ..." } else { "" };
             let named = places.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
-            notes.add(format!("{} {told}: {named}{more}.", places.len()));
+            notes.add(format!("{} {text}: {named}{more}.", places.len()));
         }
     }
     rings

@@ -87,14 +87,14 @@ fn cut(all: &mut [Painted], notes: &mut Notes, refusals: &mut Vec<Refusal>) {
             (false, false) => shapes += 1,
         }
     }
-    for (number, told) in [
+    for (number, text) in [
         (white, "white shapes are pore where they cover what is painted before them"),
         (holes, "outlines without fill on larger filled shapes are pore"),
         (frames, "outlines without fill around filled shapes are no solid"),
         (shapes, "closed outlines without fill are taken for shapes"),
     ] {
         if number > 0 {
-            notes.add(format!("{number} {told}."));
+            notes.add(format!("{number} {text}."));
         }
     }
 }

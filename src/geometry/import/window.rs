@@ -27,14 +27,14 @@ pub(crate) fn reaches(shape: &ShapeSpec, window: Bounds) -> bool {
 
 fn enters(curve: &Curve, window: Bounds, tolerance: f64) -> bool {
     let inner = window.grown(-tolerance);
-    let mut places = vec![0.0, 1.0];
+    let mut parameters = vec![0.0, 1.0];
     for axis in 0..2 {
         for at in [window.min[axis], window.max[axis]] {
-            places.extend(crossings(curve, axis, at));
+            parameters.extend(crossings(curve, axis, at));
         }
     }
-    places.sort_by(f64::total_cmp);
-    places.windows(2).any(|pair| inner.contains(curve.point(0.5 * (pair[0] + pair[1]))))
+    parameters.sort_by(f64::total_cmp);
+    parameters.windows(2).any(|pair| inner.contains(curve.point(0.5 * (pair[0] + pair[1]))))
 }
 
 #[cfg(test)]

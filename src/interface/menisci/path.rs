@@ -57,7 +57,7 @@ fn snapped(s: f64) -> f64 {
 
 /// Direction in which the path is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum Sense {
     Forward,
     Backward,
 }
@@ -85,9 +85,9 @@ impl Walls {
     /// All menisci that can be reached from the chord, in the order of the advance.
     pub(crate) fn path(&self, chord: (usize, usize)) -> Vec<Leg> {
         let Some(start) = self.start(chord) else { return Vec::new() };
-        let mut path = self.follow(start, Way::Backward);
+        let mut path = self.follow(start, Sense::Backward);
         path.reverse();
-        path.extend(self.follow(start, Way::Forward));
+        path.extend(self.follow(start, Sense::Forward));
         if path.is_empty() { vec![Leg { start, end: start }] } else { path }
     }
 
@@ -153,12 +153,12 @@ impl Walls {
         Some(Place { left: (left.0, s), right: (right.0, t) })
     }
 
-    fn follow(&self, start: Station, way: Way) -> Vec<Leg> {
+    fn follow(&self, start: Station, sense: Sense) -> Vec<Leg> {
         let mut path = Vec::new();
         let mut now = start;
         // The path visits each pair of pieces a few times at most; the bound ends closed loops.
         for _ in 0..8 * (self.left.len() + self.right.len()) {
-            let Some(cell) = self.cell_ahead(&now, way) else { break };
+            let Some(cell) = self.cell_ahead(&now, sense) else { break };
             let Some(exit) = self.far_side(&cell) else { break };
             let mut inner: Vec<Station> = self.extremes(&cell, &exit).into_iter().flatten().collect();
             if inner.len() == 2 && cell.is_beyond(&inner[0], &inner[1]) {
@@ -168,14 +168,14 @@ impl Walls {
             for station in inner.into_iter().chain([exit]) {
                 // Beyond half a turn the curvature of the arc would be infinite.
                 if (last.bend + self.change_of_bend(&last, &station)).abs() > PI {
-                    if way == Way::Forward {
+                    if sense == Sense::Forward {
                         path.push(self.before_infinity(Leg { start: last, end: station }));
                     }
                     return path;
                 }
-                path.push(match way {
-                    Way::Forward => Leg { start: last, end: station },
-                    Way::Backward => Leg { start: station, end: last },
+                path.push(match sense {
+                    Sense::Forward => Leg { start: last, end: station },
+                    Sense::Backward => Leg { start: station, end: last },
                 });
                 last = station;
             }
@@ -223,11 +223,11 @@ impl Walls {
     }
 
     /// The pair of pieces that the path enters, and the signs of both contacts' motion there.
-    fn cell_ahead(&self, now: &Station, way: Way) -> Option<Cell> {
+    fn cell_ahead(&self, now: &Station, sense: Sense) -> Option<Cell> {
         let mut place = now.place;
         // At a corner of four pairs at most three changes are needed.
         for _ in 0..4 {
-            let signs = self.motion(place, way);
+            let signs = self.motion(place, sense);
             let left = entered(place.left, signs.0, self.left.len())?;
             let right = entered(place.right, signs.1, self.right.len())?;
             if (left, right) == (place.left, place.right) {
@@ -239,16 +239,16 @@ impl Walls {
     }
 
     /// The signs of both contacts' motion along the path: the level line of F = μ_l + μ_r − 2 ψ − π, with F > 0 on the side of its left contact.
-    fn motion(&self, place: Place, way: Way) -> (f64, f64) {
+    fn motion(&self, place: Place, sense: Sense) -> (f64, f64) {
         let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
         let d = r.point(place.right.1) - l.point(place.left.1);
         let ((p, turn_l), (q, turn_r)) = (l.rates(place.left.1), r.rates(place.right.1));
         let square = d.norm_squared();
         let left = turn_l + 2.0 * cross(d, p) / square;
         let right = turn_r - 2.0 * cross(d, q) / square;
-        match way {
-            Way::Forward => (-right, left),
-            Way::Backward => (right, -left),
+        match sense {
+            Sense::Forward => (-right, left),
+            Sense::Backward => (right, -left),
         }
     }
 

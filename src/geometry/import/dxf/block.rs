@@ -244,7 +244,7 @@ impl Reader<'_> {
             let size = extent(&pieces);
             let gap = self.join_within.max(CLOSING_GAP * size);
             let chains = chains(&pieces, gap);
-            self.tell_gaps(&chains.free, &open, size);
+            self.report_gaps(&chains.free, &open, size);
             for (first, ring) in chains.rings {
                 self.closed(&ring, gap, (open[first].1.clone(), &layer));
             }
@@ -266,7 +266,7 @@ impl Reader<'_> {
     }
 
     /// Reports the small gaps between free ends of lines.
-    fn tell_gaps(&mut self, free: &[(Vec2, usize)], open: &[(Piece, String)], size: f64) {
+    fn report_gaps(&mut self, free: &[(Vec2, usize)], open: &[(Piece, String)], size: f64) {
         let ends: Vec<Vec2> = free.iter().map(|(end, _)| *end).collect();
         let gaps = gaps(&ends, size);
         let Some(Gap { width, ends: [a, b] }) = gaps.first().copied() else { return };

@@ -29,12 +29,12 @@ pub(crate) fn chains(pieces: &[Piece], gap: f64) -> Chains {
     let mut chains = Chains::default();
     let mut nodes = Nodes::new(gap);
     let mut middles = Nodes::new(gap);
-    let mut seen = BTreeMap::new();
+    let mut known = BTreeMap::new();
     // The ends of each piece that is used.
     let mut ends: Vec<Option<[usize; 2]>> = Vec::with_capacity(pieces.len());
     for piece in pieces {
         let [a, b] = piece.ends().map(|end| nodes.number(end));
-        let is_new = seen.insert([a.min(b), a.max(b), middles.number(piece.middle())], ()).is_none();
+        let is_new = known.insert([a.min(b), a.max(b), middles.number(piece.middle())], ()).is_none();
         chains.doubled += usize::from(!is_new);
         chains.open += usize::from(is_new && a == b);
         ends.push((is_new && a != b).then_some([a, b]));

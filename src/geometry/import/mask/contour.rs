@@ -107,12 +107,12 @@ impl Grid<'_> {
         Some((Crossing { solid: solid as u32, heading }, turn))
     }
 
-    fn trace(&self, start: Crossing, seen: &mut [u64]) -> Line {
+    fn trace(&self, start: Crossing, visited: &mut [u64]) -> Line {
         let mut line = Line { crossings: Vec::new(), is_closed: false, turns: 0 };
         let mut at = start;
         loop {
             if at.heading == 0 {
-                seen[at.solid as usize / 64] |= 1 << (at.solid % 64);
+                visited[at.solid as usize / 64] |= 1 << (at.solid % 64);
             }
             line.crossings.push(at);
             let Some((next, turn)) = self.next(at) else { return line };
@@ -128,7 +128,7 @@ impl Grid<'_> {
     /// All lines: the open ones counter-clockwise by their start along the edge of the image, then the closed ones by their first pixel.
     pub(crate) fn lines(&self) -> Vec<Line> {
         let (width, height) = (self.solid.width, self.solid.height);
-        let mut seen = vec![0_u64; (width * height).div_ceil(64)];
+        let mut visited = vec![0_u64; (width * height).div_ceil(64)];
         let mut lines = Vec::new();
         // Upwards from the bottom row, leftwards from the right column, downwards from the top row, rightwards from the left column.
         let bottom = (0..width - 1).map(|i| (i, 0_u8));
@@ -138,12 +138,12 @@ impl Grid<'_> {
         for (solid, heading) in bottom.chain(right).chain(top).chain(left) {
             let start = Crossing { solid: solid as u32, heading };
             if self.is_solid(solid) && !self.is_solid(self.pore(start)) {
-                lines.push(self.trace(start, &mut seen));
+                lines.push(self.trace(start, &mut visited));
             }
         }
         for node in (0..width * height).filter(|node| node % width + 1 < width) {
-            if self.is_solid(node) && !self.is_solid(node + 1) && seen[node / 64] >> (node % 64) & 1 == 0 {
-                lines.push(self.trace(Crossing { solid: node as u32, heading: 0 }, &mut seen));
+            if self.is_solid(node) && !self.is_solid(node + 1) && visited[node / 64] >> (node % 64) & 1 == 0 {
+                lines.push(self.trace(Crossing { solid: node as u32, heading: 0 }, &mut visited));
             }
         }
         lines

@@ -46,10 +46,10 @@ pub(super) fn outlines(solid: &Solid) -> Outlines {
     let wall = |k: usize, rough: &[Vec<At>]| Wall::of(&grid, &lines[k], &visits, &rough[k]);
     let mut walls: Vec<Option<Wall>> = (0..lines.len()).into_par_iter().map(|k| wall(k, &rough)).collect();
     let mut found = grains(&grid, &lines, &walls, &owner);
-    let mut places = 0;
+    let mut intersections = 0;
     for round in 0..=ROUNDS {
-        let faulty: Vec<(Vec<Vec2>, Vec<usize>)> = found.par_iter().filter_map(faulty_places).collect();
-        places = places.max(faulty.iter().map(|(at, _)| at.len().max(1)).sum());
+        let faulty: Vec<(Vec<Vec2>, Vec<usize>)> = found.par_iter().filter_map(faulty_points).collect();
+        intersections = intersections.max(faulty.iter().map(|(at, _)| at.len().max(1)).sum());
         let mut changed: Vec<usize> = Vec::new();
         for (at, of) in faulty {
             for k in of {
@@ -76,11 +76,11 @@ pub(super) fn outlines(solid: &Solid) -> Outlines {
     }
     let specks = walls.iter().filter(|wall| wall.is_none()).count();
     let entities = found.into_iter().map(|grain| entity(&grid, &lines, &walls, grain)).collect();
-    Outlines { entities, specks, rough: places }
+    Outlines { entities, specks, rough: intersections }
 }
 
 /// Invalid intersections of the rings of a grain, and their lines; `None` if the rings are valid. No intersection: a hole outside its ring.
-fn faulty_places(grain: &Grain) -> Option<(Vec<Vec2>, Vec<usize>)> {
+fn faulty_points(grain: &Grain) -> Option<(Vec<Vec2>, Vec<usize>)> {
     let curves: Vec<Vec<Curve>> = grain.rings.iter().map(|(ring, _)| bulged_ring(&ring.vertices).collect()).collect();
     let found = faults(&curves);
     if found.is_empty() {
@@ -154,8 +154,8 @@ fn owners(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
     for k in (0..lines.len()).filter(|&k| is_hole(k)) {
         let Some(start) = lines[k].crossings.first() else { continue };
         let row = start.solid as usize / grid.solid.width * grid.solid.width;
-        let place = down.partition_point(|&(node, _)| node <= start.solid);
-        owner[k] = match down[..place].last().filter(|(node, _)| *node as usize >= row) {
+        let after = down.partition_point(|&(node, _)| node <= start.solid);
+        owner[k] = match down[..after].last().filter(|(node, _)| *node as usize >= row) {
             None => Some(lines.len()),
             Some(&(_, other)) if is_hole(other) => owner[other],
             Some(&(_, other)) if lines[other].is_closed => Some(other),
@@ -170,7 +170,7 @@ fn owners(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
 }
 
 /// Position of a point on the edge of the image: arc length counter-clockwise from the lower left corner.
-fn way(grid: &Grid<'_>, p: Vec2) -> f64 {
+fn edge_position(grid: &Grid<'_>, p: Vec2) -> f64 {
     let (w, h) = (grid.solid.width as f64 - 1.0, grid.solid.height as f64 - 1.0);
     let (x, y) = (p.x - 0.5, p.y - 0.5);
     if y <= 0.0 {
@@ -187,7 +187,7 @@ fn way(grid: &Grid<'_>, p: Vec2) -> f64 {
 fn ends(grid: &Grid<'_>, lines: &[Line]) -> Vec<(f64, usize)> {
     let start = |(k, line): (usize, &Line)| {
         let first = line.crossings.first().filter(|_| !line.is_closed)?;
-        Some((way(grid, grid.middle(*first)), k))
+        Some((edge_position(grid, grid.middle(*first)), k))
     };
     let mut starts: Vec<(f64, usize)> = lines.iter().enumerate().filter_map(start).collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -199,9 +199,9 @@ fn followers(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
     let starts = ends(grid, lines);
     let next = |line: &Line| {
         let last = line.crossings.last().filter(|_| !line.is_closed)?;
-        let at = way(grid, grid.middle(*last));
-        let place = starts.partition_point(|start| start.0 <= at);
-        starts.get(place).or(starts.first()).map(|start| start.1)
+        let at = edge_position(grid, grid.middle(*last));
+        let after = starts.partition_point(|start| start.0 <= at);
+        starts.get(after).or(starts.first()).map(|start| start.1)
     };
     lines.iter().map(next).collect()
 }
@@ -223,7 +223,7 @@ fn edge_groups(grid: &Grid<'_>, lines: &[Line]) -> Vec<usize> {
 /// The group of the grain that contains the first pixel of a row; `lines.len()` if no line leaves the image.
 fn edge_owner(grid: &Grid<'_>, lines: &[Line], group: &[usize], row: usize) -> usize {
     let starts = ends(grid, lines);
-    let at = way(grid, grid.center(row));
+    let at = edge_position(grid, grid.center(row));
     let place = starts.partition_point(|start| start.0 < at);
     starts.get(place).or(starts.first()).map_or(lines.len(), |start| group[start.1])
 }
@@ -239,7 +239,7 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
         Vec2::new(w + beyond, h + beyond),
         Vec2::new(-beyond, h + beyond),
     ];
-    let ways = [0.0, w - 1.0, w + h - 2.0, 2.0 * w + h - 3.0];
+    let corner_positions = [0.0, w - 1.0, w + h - 2.0, 2.0 * w + h - 3.0];
     let total = 2.0 * (w + h) - 4.0;
     let straight = |p: Vec2| [p.x, p.y, 0.0];
     if lines.iter().all(|line| line.is_closed) {
@@ -268,11 +268,13 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
             ring.vertices.extend(wall.vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge]));
             ring.vertices.extend([straight(to), straight(to + outwards * beyond)]);
             let follower = next[at].unwrap_or(at);
-            let leave = way(grid, grid.middle(*end));
-            let enter = lines[follower].crossings.first().map_or(leave, |c| way(grid, grid.middle(*c)));
+            let leave = edge_position(grid, grid.middle(*end));
+            let enter = lines[follower].crossings.first().map_or(leave, |c| edge_position(grid, grid.middle(*c)));
             let span = (enter - leave).rem_euclid(total);
-            let mut passed: Vec<(f64, usize)> =
-                (0..4).map(|k| ((ways[k] - leave).rem_euclid(total), k)).filter(|(far, _)| *far < span).collect();
+            let mut passed: Vec<(f64, usize)> = (0..4)
+                .map(|k| ((corner_positions[k] - leave).rem_euclid(total), k))
+                .filter(|(far, _)| *far < span)
+                .collect();
             passed.sort_by(|a, b| a.0.total_cmp(&b.0));
             ring.vertices.extend(passed.into_iter().map(|(_, k)| straight(corners[k])));
             at = follower;

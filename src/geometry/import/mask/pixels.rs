@@ -188,13 +188,13 @@ fn oriented((width, height): (u32, u32), values: Vec<f32>, orientation: u16) -> 
         8 => |[x, y], [w, _]| [w - 1 - y, x],
         other => return Err(refusal(format!("the orientation {other}"), "1 to 8 in tag 274: export the image again")),
     };
-    let seen = if orientation < 5 { [w, h] } else { [h, w] };
+    let size = if orientation < 5 { [w, h] } else { [h, w] };
     let value = |k: usize| {
-        let [x, y] = source([k % seen[0], k / seen[0]], [w, h]);
+        let [x, y] = source([k % size[0], k / size[0]], [w, h]);
         values[y * w + x]
     };
     let turned = (0..w * h).map(value).collect();
-    let mut gray = Gray::from_rows_down((seen[0] as u32, seen[1] as u32), turned);
+    let mut gray = Gray::from_rows_down((size[0] as u32, size[1] as u32), turned);
     gray.notes.push(format!("the image is turned or mirrored as its orientation {orientation} says"));
     Ok(gray)
 }

@@ -175,28 +175,28 @@ fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, roug
         [next - 1, next].into_iter().any(|k| rough[k % rough.len()] > At::Smooth)
     };
     // Smooth points, replaced by crossings at rough points, in order.
-    let mut places: Vec<(f64, Option<usize>, usize)> = Vec::new();
-    places.extend((0..smooth.0.len()).map(|k| (k as f64 * step, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
-    places.extend((0..rough.len()).filter(|&k| rough[k] > At::Smooth).map(|k| (far[k], None, k)));
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut nodes: Vec<(f64, Option<usize>, usize)> = Vec::new();
+    nodes.extend((0..smooth.0.len()).map(|k| (k as f64 * step, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
+    nodes.extend((0..rough.len()).filter(|&k| rough[k] > At::Smooth).map(|k| (far[k], None, k)));
+    nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
     if line.is_closed {
-        let first = places.iter().position(|place| place.1.is_none()).unwrap_or(0);
-        places.rotate_left(first);
+        let first = nodes.iter().position(|node| node.1.is_none()).unwrap_or(0);
+        nodes.rotate_left(first);
     }
     let mut found = Vec::new();
-    for run in places.chunk_by(|a, b| a.1.is_some() == b.1.is_some()) {
-        let smooth_run: Vec<usize> = run.iter().filter_map(|place| place.1).collect();
+    for run in nodes.chunk_by(|a, b| a.1.is_some() == b.1.is_some()) {
+        let smooth_run: Vec<usize> = run.iter().filter_map(|node| node.1).collect();
         if smooth_run.is_empty() {
             let n = rough.len();
             let apart = |k: usize| grid.apart(line.crossings[k % n]);
-            // A vertex without a tangent stays in place; lines leave the image at right angles.
+            // A vertex without a tangent stays in node; lines leave the image at right angles.
             let along = |k: usize| match rough[k] {
                 At::Kept if line.is_closed => (apart(k + 1) - apart(k + n - 1)).try_normalize(0.0),
                 _ => None,
             };
             let corner =
                 |k: usize| Vertex { point: apart(k), bulge: 0.0, tangent: along(k).unwrap_or_else(Vec2::zeros) };
-            found.extend(run.iter().map(|place| corner(place.2)));
+            found.extend(run.iter().map(|node| corner(node.2)));
         } else {
             let pick = |from: &[Vec2]| smooth_run.iter().map(|&k| from[k]).collect::<Vec<_>>();
             found.extend(arcs::arcs((&pick(&smooth.0), &pick(&smooth.1)), false, noise.rms));

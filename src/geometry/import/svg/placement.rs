@@ -34,8 +34,8 @@ pub(crate) fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<
         "transform-origin" => origin = Some(value.to_owned()),
         "transform-box" => own_box = Some(value.to_owned()),
         _ if source == Source::Css && !matches!(value, "none" | "auto") => {
-            let place = REFUSED.iter().position(|refused| *refused == name);
-            if place.is_some_and(|place| is_shape || place < OF_ALL) {
+            let index = REFUSED.iter().position(|refused| *refused == name);
+            if index.is_some_and(|index| is_shape || index < OF_ALL) {
                 refused = Some(format!("`{name}: {}` in its style", shortened(value)));
             }
         }
@@ -239,8 +239,8 @@ mod tests {
             ("r: 7px", "`r: 7px` in its style"),
         ] {
             let refusals = read(&format!("<circle r='2' style='{style}'/>")).unwrap_err();
-            let told = refusals[0].to_string();
-            assert!(told.starts_with("line 2: found ") && told.contains(found), "{told}");
+            let message = refusals[0].to_string();
+            assert!(message.starts_with("line 2: found ") && message.contains(found), "{message}");
         }
     }
 }

@@ -327,14 +327,14 @@ impl<'a, 'input> Walk<'a, 'input> {
             drawing.entities.iter_mut().for_each(|one| one.paint = Paint::Filled);
         }
         let Tally { strokes, clipped, not_closed } = self.tally;
-        let told = [
+        let counts = [
             (outlines, "closed outlines without fill are taken for shapes"),
             (not_closed, "open outlines with a fill are closed by a straight line, as they are drawn"),
             (strokes, "shapes have a stroke beside the fill; its width is not part of them"),
             (clipped, "elements have a clip or a mask, which is not applied"),
             (self.sheet.left_out, "selectors of style sheets are not understood and left out"),
         ];
-        for (number, sentence) in told.into_iter().filter(|(number, _)| *number > 0) {
+        for (number, sentence) in counts.into_iter().filter(|(number, _)| *number > 0) {
             drawing.notes.push(format!("{number} {sentence}."));
         }
         if drawing.unit.as_ref().is_some_and(|unit| unit.name == "px") {

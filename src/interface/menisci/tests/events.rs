@@ -23,9 +23,9 @@ fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
             .find(|&k| passage.at(k).unwrap().points(50).iter().any(|&x| cell.is_inside(2, x)));
         let step = (high - low) / f64::from(n);
         match (found, scan) {
-            (Some(k), Some(seen)) => {
+            (Some(k), Some(scanned)) => {
                 counts[0] += 1;
-                assert!(k <= seen + 1e-9 && k > seen - 2.0 * step, "{case}: {k} {seen} {step}");
+                assert!(k <= scanned + 1e-9 && k > scanned - 2.0 * step, "{case}: {k} {scanned} {step}");
             }
             (None, None) => counts[1] += 1,
             _ => panic!("{case}: {found:?}, seen {scan:?}"),
@@ -85,9 +85,9 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
         });
         let step = (up_to - low) / f64::from(n);
         match (found, scan) {
-            (Some(k), Some(seen)) => {
+            (Some(k), Some(scanned)) => {
                 counts[0] += 1;
-                assert!(k <= seen + 1e-9 && k > seen - 2.0 * step, "{case}: {k} {seen} {step}");
+                assert!(k <= scanned + 1e-9 && k > scanned - 2.0 * step, "{case}: {k} {scanned} {step}");
             }
             (None, None) => counts[1] += 1,
             _ => panic!("{case}: {found:?}, seen {scan:?}"),
