@@ -1,48 +1,48 @@
-//! Diagrams as data: what a solver knows of its own history, drawn by others.
+//! Diagrams as data: the history of a solver, drawn by other modules.
 
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What stands along it, with its unit.
+    /// Quantity with its unit.
     pub label: &'static str,
-    /// Whether equal steps are equal ratios; what is not above zero is left out then.
+    /// Whether the scale is logarithmic; values that are not above zero are then omitted.
     pub logarithmic: bool,
 }
 
-/// How a line is drawn.
+/// Line style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stroke {
     /// A line of its own color.
     Full,
-    /// One of many that belong together: thin and gray.
+    /// One of many lines of a family: thin and gray.
     Thin,
-    /// What is expected: dashed and black.
+    /// The expected line: dashed and black.
     Dashed,
     /// Dots of its own color.
     Dots,
-    /// The area within a closed line, in a light tone of the color of the next line.
+    /// The area within a closed line, in a light tint of the color of the next line.
     Band,
 }
 
-/// Points in the order in which they are joined.
+/// A polyline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     /// Its name in the legend; empty for none.
     pub name: String,
-    /// How it is drawn.
+    /// Its line style.
     pub stroke: Stroke,
     /// x and y.
     pub points: Vec<[f64; 2]>,
 }
 
-/// A quantity over both axes, drawn in bands of colors.
+/// A quantity as a function of both axes, drawn in color bands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     /// The quantity with its unit.
     pub label: &'static str,
-    /// Ascending places along x: the middles of columns.
+    /// Ascending positions along x: the centers of columns.
     pub x: Vec<f64>,
-    /// Ascending places along y: the middles of rows.
+    /// Ascending positions along y: the centers of rows.
     pub y: Vec<f64>,
     /// Values, row by row.
     pub values: Vec<f64>,
@@ -53,13 +53,13 @@ pub struct Map {
 pub struct Diagram {
     /// Its file is `diagram-NAME.svg`.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// Title in one line.
     pub title: &'static str,
     /// The axis along x.
     pub x: Axis,
     /// The axis along y.
     pub y: Axis,
-    /// What lies below the lines, if anything.
+    /// The map below the lines, if any.
     pub map: Option<Map>,
     /// The lines.
     pub traces: Vec<Trace>,
@@ -68,7 +68,7 @@ pub struct Diagram {
 /// A color as red, green, blue.
 pub(crate) type Color = [u8; 3];
 
-/// The colors of all pictures, which color-blind eyes keep apart (Okabe and Ito 2008). `postprocess/colors.py` has the same.
+/// The colors of all pictures, distinguishable by color-blind readers (Okabe and Ito 2008). `postprocess/colors.py` has the same.
 pub(crate) mod colors {
     use crate::diagram::Color;
 
@@ -83,21 +83,21 @@ pub(crate) mod colors {
     pub(crate) const WALL: Color = [80, 80, 80];
     /// Menisci.
     pub(crate) const MENISCUS: Color = [0, 0, 0];
-    /// A pore without a fluid.
+    /// Pore space without a fluid.
     pub(crate) const PORE: Color = [255, 255, 255];
-    /// Where the spacing does not resolve a phase; throats.
+    /// Positions where the spacing does not resolve a phase; throats.
     pub(crate) const MARK: Color = [213, 60, 140];
 
-    /// From first to last of what a phase has invaded, about its color.
+    /// From the first to the last invaded region, around the color of the invading phase.
     pub(crate) const WETTING_IN_ORDER: &[Color] =
         &[[220, 240, 252], [150, 210, 244], WETTING, [30, 140, 200], [0, 104, 165], [0, 66, 110]];
     pub(crate) const NON_WETTING_IN_ORDER: &[Color] =
         &[[255, 238, 196], [248, 204, 106], NON_WETTING, [198, 122, 0], [150, 82, 0], [98, 48, 0]];
-    /// Sizes, the largest dark: viridis at quarters (van der Walt and Smith 2015).
+    /// Sizes, the largest one dark: viridis at quarters (van der Walt and Smith 2015).
     pub(crate) const SIZES: &[Color] = &[[253, 231, 37], [92, 200, 99], [33, 144, 141], [59, 81, 139], [68, 1, 84]];
 }
 
-/// Which way fluids pass an open side.
+/// Flow through an open side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Through {
     /// Into the domain.
@@ -106,30 +106,30 @@ pub enum Through {
     Out,
 }
 
-/// The domain of a picture and what its sides are.
+/// The domain of a picture and its sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// Lower left and upper right corner in m.
     pub bounds: [[f64; 2]; 2],
-    /// What passes the left, right, bottom and top side; none where a side is closed.
+    /// Flow through the left, right, bottom and top side; `None` if a side is closed.
     pub open: [Option<Through>; 4],
-    /// Whether the domain is joined along x and y.
+    /// Whether the domain is periodic along x and y.
     pub periodic: [bool; 2],
 }
 
-/// How an area is colored.
+/// Color of an area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tone {
-    /// By a number, along the color bar.
+    /// A value, by the color bar.
     Value(f64),
-    /// By the class of this index.
+    /// The class with this index.
     Class(usize),
 }
 
 /// An area of the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Area {
-    /// Its closed boundary in m, the first vertex not repeated.
+    /// Its closed boundary in m, without repetition of the first vertex.
     pub boundary: Vec<[f64; 2]>,
     /// Its color.
     pub tone: Tone,
@@ -138,22 +138,22 @@ pub struct Area {
 /// A line and its width, both in m.
 pub(crate) type Strip = (Vec<[f64; 2]>, f64);
 
-/// A map of the plane: areas colored by a number, with lines over them.
+/// A map of the plane: areas colored by a number, with lines on top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionMap {
     /// Its file is `picture-NAME.png`; that of the first one `picture.png`.
     pub name: &'static str,
-    /// What stands below the title: where the run stands.
+    /// The line below the title: the progress of the run.
     pub note: String,
     /// The quantity of the color bar with its unit.
     pub label: &'static str,
-    /// Both ends of the color bar.
+    /// The ends of the color bar.
     pub range: [f64; 2],
     /// The colors along it, from low to high.
     pub bar: &'static [Color],
     /// Names and colors of the classes.
     pub classes: Vec<(&'static str, Color)>,
-    /// The drawing; what no area covers is solid.
+    /// The frame; what is not covered by an area is solid.
     pub frame: Frame,
     /// The areas.
     pub areas: Vec<Area>,

@@ -1,9 +1,9 @@
 //! Two-phase flow with partial wetting in pores.
 //!
-//! A run goes one way: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report. The program `meniscus` does all of it; the types below do
-//! each part by itself. SI units; angles in rad, in degrees where a name says so.
+//! Data flow of a run: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report. The program `meniscus` does all of it; the types below do
+//! each part separately. SI units; angles in rad, in degrees where a name says so.
 //!
-//! What is `pub` is chosen; the rest is `pub(crate)`, so that the compiler sees what nobody uses.
+//! The public interface is selected deliberately; the rest is `pub(crate)`, so that the compiler detects unused items.
 #![warn(unreachable_pub)]
 #![allow(rustdoc::private_intra_doc_links, reason = "comments are for readers of the source too")]
 
@@ -61,7 +61,7 @@ pub mod wetting;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use case::{Case, Loaded, Model, load, load_default};
-/// Shapes as they are written, and the distance from their walls, above 0 in the pore; lengths in m:
+/// Shapes as specified, and the distance from their walls, above 0 in the pore; lengths in m:
 ///
 /// ```
 /// use meniscus::{Channel, Disc, Geometry, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide, Vec2};
@@ -84,7 +84,7 @@ pub use geometry::{
     Geometry, GeometryError,
     spec::{Channel, Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide},
 };
-/// Mistakes come all at once, each with its place and a way out:
+/// Mistakes are reported all at once, each with its source location and a remedy:
 ///
 /// ```
 /// use meniscus::{InputError, Mistake, Overrides, load_default};
@@ -92,8 +92,8 @@ pub use geometry::{
 /// let overrides = Overrides::parse(&["sph.spacing=-1", "sph.interface.tension=\"high\""])?;
 /// let InputError { mistakes } = load_default(&overrides).unwrap_err();
 /// assert_eq!(mistakes.len(), 2);
-/// let told = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
-/// assert!(mistakes.iter().any(told));
+/// let is_expected = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
+/// assert!(mistakes.iter().any(is_expected));
 /// # Ok::<(), InputError>(())
 /// ```
 pub use input::{InputError, Mistake, Overrides};
@@ -143,7 +143,7 @@ pub use network::{
     extract,
     graph::{Network, Opening, Pores, Region, Throat},
 };
-/// A run from its folder to its report, as the program does it:
+/// A run from its folder to its report, as executed by the program:
 ///
 /// ```
 /// use meniscus::{Finished, Job, Mode, Overrides, Unwatched, execute, load_default, solver_of};
@@ -160,7 +160,7 @@ pub use network::{
 pub use run::execute::{Finished, Job, Mode, RunError, execute};
 pub use run::setup::build as solver_of;
 pub use run::simulation::{Unwatched, Watcher};
-/// What output sees of a solver:
+/// The state of a solver for output:
 ///
 /// ```
 /// use meniscus::{Field, Overrides, Snapshot, Values, load_default, solver_of};
@@ -173,7 +173,7 @@ pub use run::simulation::{Unwatched, Watcher};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use snapshot::{Field, Snapshot, Values};
-/// A solver, whatever its model, and what it measures:
+/// A solver, independent of its model, and its measures:
 ///
 /// ```
 /// use meniscus::{Measure, Overrides, Series, Solver, SolverError, load_default, solver_of};

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use mimalloc::MiMalloc;
 
-/// Keeps the large arrays of a step: returned to the system and fetched again they cost a seventh of it (docs/numerics/overview.md).
+/// Retains the large arrays of a step: returning them to the system and fetching them again costs a seventh of it (docs/numerics/overview.md).
 #[global_allocator]
 static ALLOCATOR: MiMalloc = MiMalloc;
 

@@ -1,9 +1,9 @@
-//! The small mathematics of the plane: two-vectors and two-by-two matrices of nalgebra, boxes, the shape of the kernel.
+//! Mathematics of the plane: vectors and matrices of nalgebra, boxes, the shape of the kernel.
 
-/// Start value of the hash FNV-1a of 64 bits.
+/// Offset basis of the 64-bit FNV-1a hash.
 pub(crate) const FNV1A_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// The hash FNV-1a of 64 bits (Fowler, Noll, Vo), gone on with from `hash`: the same on every machine and version.
+/// The 64-bit FNV-1a hash (Fowler, Noll, Vo), continued from `hash`: the same on every machine and version.
 pub(crate) fn fnv1a(hash: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
     const PRIME: u64 = 0x0100_0000_01b3;
     bytes.into_iter().fold(hash, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
@@ -15,25 +15,24 @@ pub type Vec2 = nalgebra::Vector2<f64>;
 /// A linear map of the plane.
 pub(crate) type Mat2 = nalgebra::Matrix2<f64>;
 
-/// The vector `v` turned by +90 degrees.
+/// The vector `v` rotated by +90 degrees.
 pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
-/// The shortest of the periodic images of `difference` (m).
+/// The shortest periodic image of `difference` (m).
 pub(crate) fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {
     let wrap = |d: f64, period: Option<f64>| period.map_or(d, |l| d - l * (d / l).round());
     Vec2::new(wrap(difference.x, period[0]), wrap(difference.y, period[1]))
 }
 
-/// Half the second moment of [`wendland_c2`] along a line through its center, over that of zeroth order, in h².
+/// Half the second moment of [`wendland_c2`] along a line through its center, over its zeroth moment, in h².
 ///
-/// The share k²h² times this is what smoothing takes from a wave of an interface; of a disc of the curvature κ it draws the level 1/2
-/// towards the center by this times h²κ.
+/// Smoothing reduces the amplitude of an interface wave by k²h² times this; it displaces the level 1/2 of a disc of curvature κ towards the center by h²κ
+/// times this.
 pub(crate) const LINE_MOMENT: f64 = 1.0 / 7.0;
 
-/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is
-/// 4π/7 [Huber2013, Eq. 14].
+/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is 4π/7 [Huber2013, Eq. 14].
 #[inline]
 pub(crate) fn wendland_c2(q: f64) -> f64 {
     let t = (1.0 - 0.5 * q).max(0.0);
@@ -61,23 +60,23 @@ impl Bounds {
         self.size().product()
     }
 
-    /// The middle of the box.
+    /// The center of the box.
     pub(crate) fn center(&self) -> Vec2 {
         0.5 * (self.min + self.max)
     }
 
-    /// The smallest box around points, where there are any.
+    /// The smallest box around the points; `None` without points.
     pub(crate) fn around(mut points: impl Iterator<Item = Vec2>) -> Option<Self> {
         let first = points.next()?;
         Some(points.fold(Self { min: first, max: first }, |b, x| Self { min: b.min.inf(&x), max: b.max.sup(&x) }))
     }
 
-    /// Whether `x` lies in the box, its sides included.
+    /// Whether `x` lies in the box, including its sides.
     pub fn contains(&self, x: Vec2) -> bool {
         (0..2).all(|i| self.min[i] <= x[i] && x[i] <= self.max[i])
     }
 
-    /// Whether two boxes share a point, their sides included.
+    /// Whether two boxes have a common point, including their sides.
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..2).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
     }
@@ -87,20 +86,20 @@ impl Bounds {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
-    /// The box with every side moved outwards by `margin` in m.
+    /// The box with every side moved outwards by `margin` (m).
     pub fn grown(&self, margin: f64) -> Self {
         let by = Vec2::repeat(margin);
         Self { min: self.min - by, max: self.max + by }
     }
 }
 
-/// Lets faer work in one thread from now on: what it sums in parts would depend on the number of threads. We build it without threads,
-/// but a program that uses this library may have it with them.
+/// Restricts faer to one thread from now on: the order of its sums would depend on the number of threads. This crate builds it without threads, but a program
+/// that uses this library may enable them.
 pub fn factor_in_one_thread() {
     faer::set_global_parallelism(faer::Par::Seq);
 }
 
-/// The root of a node in a forest of disjoint sets, whose paths it halves: `parent` has the parent of each node, a root its own.
+/// The root of a node in a disjoint-set forest, with path halving: `parent` has the parent of each node; a root is its own.
 pub(crate) fn root(parent: &mut [usize], mut node: usize) -> usize {
     while parent[node] != node {
         parent[node] = parent[parent[node]];

@@ -1,4 +1,4 @@
-//! What output sees of a solver: points, named fields with units, a grid, lines. No solver type.
+//! The state of a solver for output: points, named fields with units, a grid, lines. Independent of solver types.
 
 use std::borrow::Cow;
 
@@ -11,12 +11,12 @@ pub enum Values<'a> {
     Scalar(Cow<'a, [f64]>),
     /// One vector of the plane per point.
     Vector(Cow<'a, [Vec2]>),
-    /// One whole number per point.
+    /// One integer per point.
     Integer(Cow<'a, [i64]>),
 }
 
 impl Values<'_> {
-    /// The same with values of their own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Values<'static> {
         match self {
             Self::Scalar(values) => Values::Scalar(Cow::Owned(values.into_owned())),
@@ -29,22 +29,22 @@ impl Values<'_> {
 /// A named field with its unit.
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
-    /// Name as it stands in the output contract, such as `wall-distance`.
+    /// Name as in the output files, such as `wall-distance`.
     pub name: &'static str,
-    /// SI unit, such as `m/s`; empty for pure numbers.
+    /// SI unit, such as `m/s`; empty for dimensionless numbers.
     pub unit: &'static str,
     /// One value per point.
     pub values: Values<'a>,
 }
 
 impl Field<'_> {
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Field<'static> {
         Field { name: self.name, unit: self.unit, values: self.values.into_owned() }
     }
 }
 
-/// Fields with values of their own.
+/// The fields with owned values.
 fn owned(fields: Vec<Field<'_>>) -> Vec<Field<'static>> {
     fields.into_iter().map(Field::into_owned).collect()
 }
@@ -59,18 +59,18 @@ pub struct Cloud<'a> {
 }
 
 impl Cloud<'_> {
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Cloud<'static> {
         Cloud { points: Cow::Owned(self.points.into_owned()), fields: owned(self.fields) }
     }
 }
 
-/// Fields on the nodes of a regular grid, x running fastest.
+/// Fields on the nodes of a regular grid; x runs fastest.
 #[derive(Debug, Clone)]
 pub struct Grid<'a> {
     /// Position of the first node in m.
     pub origin: Vec2,
-    /// Distance of neighboring nodes in m.
+    /// Spacing of the nodes in m.
     pub spacing: Vec2,
     /// Number of nodes along x and y.
     pub counts: [usize; 2],
@@ -85,7 +85,7 @@ impl Grid<'_> {
         (0..self.counts[1]).flat_map(|y| (0..self.counts[0]).map(move |x| node(x, y))).collect()
     }
 
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Grid<'static> {
         Grid { origin: self.origin, spacing: self.spacing, counts: self.counts, fields: owned(self.fields) }
     }
@@ -96,36 +96,36 @@ impl Grid<'_> {
 pub struct Lines<'a> {
     /// Vertices in m.
     pub points: Cow<'a, [Vec2]>,
-    /// Each polyline as indices into `points`; closed where the first index is repeated at the end.
+    /// Each polyline as indices into `points`; closed if the first index is repeated at the end.
     pub lines: Vec<Vec<u32>>,
     /// Fields on the vertices, each as long as `points`.
     pub fields: Vec<Field<'a>>,
 }
 
 impl Lines<'_> {
-    /// The same with values of their own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Lines<'static> {
         Lines { points: Cow::Owned(self.points.into_owned()), lines: self.lines, fields: owned(self.fields) }
     }
 }
 
-/// What the cells of a layer are.
+/// Kinds of cells of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellKind {
     /// Single points.
     Points,
     /// Lines of two points.
     Lines,
-    /// Polygons, not closed by repeating the first vertex.
+    /// Polygons, without repetition of the first vertex.
     Polygons,
 }
 
 /// Cells of one kind with fields on them: pores, throats, regions.
 #[derive(Debug, Clone)]
 pub struct Layer<'a> {
-    /// Name of its files.
+    /// Base name of its files.
     pub name: &'static str,
-    /// What its cells are.
+    /// Kind of its cells.
     pub kind: CellKind,
     /// Vertices in m.
     pub points: Cow<'a, [Vec2]>,
@@ -136,14 +136,14 @@ pub struct Layer<'a> {
 }
 
 impl Layer<'_> {
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Layer<'static> {
         let (points, fields) = (Cow::Owned(self.points.into_owned()), owned(self.fields));
         Layer { name: self.name, kind: self.kind, points, cells: self.cells, fields }
     }
 }
 
-/// The state of a solver at one time, as output needs it.
+/// The state of a solver at one time, for output.
 #[derive(Debug, Clone)]
 pub struct Snapshot<'a> {
     /// Time in s.
@@ -152,14 +152,14 @@ pub struct Snapshot<'a> {
     pub step: u64,
     /// The particles, or the nodes of a thin film.
     pub particles: Cloud<'a>,
-    /// The same fields on a regular grid, where the solver offers them.
+    /// The same fields on a regular grid, if the solver provides them.
     pub grid: Option<Grid<'a>>,
-    /// The interface between the fluids, where there is one.
+    /// The interface between the fluids, if there is one.
     pub interface: Option<Lines<'a>>,
 }
 
 impl Snapshot<'_> {
-    /// The same with values of its own, which outlives the solver's next step.
+    /// The same with owned values, independent of the solver's next step.
     pub(crate) fn into_owned(self) -> Snapshot<'static> {
         Snapshot {
             time: self.time,

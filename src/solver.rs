@@ -1,4 +1,4 @@
-//! What the simulation loop needs of a solver.
+//! The interface between the simulation loop and a solver.
 
 use serde::Serialize;
 
@@ -7,14 +7,14 @@ use crate::math::Vec2;
 use crate::snapshot::{Layer, Lines, Snapshot};
 use crate::table::{Document, Table};
 
-/// What a run goes along: time, for most solvers.
+/// The independent variable of a run: time, for most solvers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Clock {
-    /// What it counts.
+    /// Its name.
     pub name: &'static str,
-    /// Its symbol in pictures and lines of progress.
+    /// Its symbol in pictures and progress messages.
     pub symbol: &'static str,
-    /// Unit, empty for pure numbers.
+    /// Unit, empty for dimensionless numbers.
     pub unit: &'static str,
 }
 
@@ -23,14 +23,14 @@ impl Clock {
     pub(crate) const TIME: Self = Self { name: "time", symbol: "t", unit: "s" };
 }
 
-/// What a solver leaves at its end beside measures and diagrams.
+/// The final output of a solver besides measures and diagrams.
 #[derive(Debug, Clone, Default)]
 pub struct Results<'a> {
     /// Tables, written as CSV.
     pub tables: Vec<Table>,
     /// Layers, written as VTK.
     pub layers: Vec<Layer<'a>>,
-    /// Texts, written as they are.
+    /// Texts, written unchanged.
     pub documents: Vec<Document>,
     /// Maps of the plane; the first one is the picture of the run.
     pub region_maps: Vec<RegionMap>,
@@ -45,50 +45,50 @@ pub struct Sample {
     pub value: f64,
 }
 
-/// A final result with its error bar and how it was found.
+/// A final result with its error bar and method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
     /// Name in `report.json`, such as `contact-angle-deg`.
     pub name: String,
-    /// Value in `unit`; NaN where it could not be measured (the method says why).
+    /// Value in `unit`; NaN if it could not be measured (the method gives the reason).
     pub value: f64,
-    /// Unit, empty for pure numbers.
+    /// Unit, empty for dimensionless numbers.
     pub unit: String,
-    /// One standard uncertainty in `unit`, where one is known.
+    /// One standard uncertainty in `unit`, if known.
     pub uncertainty: Option<f64>,
     /// How it was measured, in one sentence.
     pub method: String,
-    /// The column of the time series that it moves with, unless it is one of the watched quantities.
+    /// The column of the time series with which it varies, unless it is one of the watched quantities.
     pub moves_with: Option<MovesWith>,
 }
 
-/// A measure without an error bar; its value in `unit`, and in one sentence the `method`.
+/// A measure without an error bar: its value in `unit`, and its `method` in one sentence.
 pub(crate) fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
     Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
 }
 
-/// The column that a measure moves with.
+/// The column with which a measure varies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovesWith {
     /// Its name.
     pub column: &'static str,
-    /// A change of the measure over that of the column.
+    /// Ratio of a change of the measure to that of the column.
     pub factor: f64,
 }
 
 impl Measure {
-    /// The same measure, of which the series holds a `column`: its changes times `factor` are those of the measure.
+    /// The same measure, which varies with a `column` of the series: changes of the column times `factor` are those of the measure.
     pub(crate) fn moving_with(self, column: &'static str, factor: f64) -> Self {
         Self { moves_with: Some(MovesWith { column, factor }), ..self }
     }
 }
 
-/// What one step did.
+/// Summary of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepInfo {
     /// Time step in s.
     pub dt: f64,
-    /// The limit that ruled `dt`: `velocity`, `viscosity`, `surface tension`, `gravity`, `record`, ...
+    /// The limit that determined `dt`: `velocity`, `viscosity`, `surface tension`, `gravity`, `record`, ...
     pub limit: &'static str,
 }
 
@@ -101,14 +101,14 @@ pub struct PartTime {
     pub seconds: f64,
 }
 
-/// What a solver tells of its own work.
+/// Statistics of a solver's work.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of unknowns: particles or nodes.
     pub unknowns: usize,
-    /// Steps done by this process.
+    /// Number of steps done by this process.
     pub steps: u64,
-    /// Wall time by part.
+    /// Wall time of each part.
     pub parts: Vec<PartTime>,
     /// Further counts by name, such as `ppe-iterations`.
     pub counts: Vec<(&'static str, f64)>,
@@ -117,7 +117,7 @@ pub struct Statistics {
 /// Why a solver stopped. The state before the failing step is kept.
 #[derive(Debug, thiserror::Error)]
 pub enum SolverError {
-    /// A value that is not finite, or a speed beyond reason.
+    /// A value that is not finite, or an unphysically large speed.
     #[error("{what} at time {time:.6e} s (step {step}), at ({:.4e}, {:.4e}) m", place.x, place.y)]
     BlowUp {
         /// What went wrong, with the value.
@@ -126,10 +126,10 @@ pub enum SolverError {
         time: f64,
         /// Step.
         step: u64,
-        /// Where in m.
+        /// Position in m.
         place: Vec2,
     },
-    /// The time step fell far below what the static limits allow.
+    /// The time step is far below the static limits.
     #[error(
         "the time step fell to {dt:.3e} s, below {smallest:.3e} s, ruled by {limit}, at time {time:.6e} s (step {step}), \
          fastest particle at ({:.4e}, {:.4e}) m", place.x, place.y
@@ -137,18 +137,18 @@ pub enum SolverError {
     TimeStep {
         /// The time step in s.
         dt: f64,
-        /// The smallest one that is accepted in s.
+        /// The smallest accepted one in s.
         smallest: f64,
-        /// The limit that rules it.
+        /// The limit that determines it.
         limit: &'static str,
         /// Time in s.
         time: f64,
         /// Step.
         step: u64,
-        /// Where the fastest particle is, in m.
+        /// Position of the fastest particle in m.
         place: Vec2,
     },
-    /// A flow rate is asked for through a side, and nothing can flow.
+    /// A flow rate is prescribed at a side through which nothing can flow.
     #[error(
         "no pressure drives the flow that is asked for through the side `{side}` at time {time:.6e} s (step {step}): open a way \
          through the solids along it, wide enough for a few particles, or leave the flow out"
@@ -167,13 +167,13 @@ pub enum SolverError {
          iterations, {tolerance:.1e} asked for{}", way_out(*residual)
     )]
     NotConverged {
-        /// Which system.
+        /// Name of the system.
         system: &'static str,
         /// Relative residual reached.
         residual: f64,
-        /// Relative residual asked for.
+        /// Required relative residual.
         tolerance: f64,
-        /// Iterations spent.
+        /// Number of iterations.
         iterations: usize,
         /// Time in s.
         time: f64,
@@ -182,19 +182,19 @@ pub enum SolverError {
     },
 }
 
-/// What to do about a solve that stopped at the relative `residual`.
+/// The advice after a solve that stopped at the relative `residual`.
 fn way_out(residual: f64) -> &'static str {
     // A solve that fails for another reason stops far above rounding.
     const ROUNDING: f64 = 1e-9;
     if residual < ROUNDING { "; rounding allows no less, so ask for a larger tolerance" } else { "" }
 }
 
-/// A saved state that cannot be taken up again.
+/// A saved state that cannot be restored.
 #[derive(Debug, thiserror::Error)]
 #[error("the saved state does not fit: {0}")]
 pub struct StateError(pub String);
 
-/// The rows of the time series so far, as `series.csv` holds them.
+/// The rows of the time series up to now, as in `series.csv`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Series {
     /// Column names; the first is the clock of the solver: `time_s` for most.
@@ -204,19 +204,19 @@ pub struct Series {
 }
 
 impl Series {
-    /// The values of one column, empty where there is no such column.
+    /// The values of one column, empty if there is no such column.
     pub(crate) fn column<'a>(&'a self, name: &str) -> impl Iterator<Item = f64> + 'a {
         let index = self.columns.iter().position(|c| c == name);
         self.rows.iter().filter_map(move |row| index.and_then(|i| row.get(i).copied()))
     }
 }
 
-/// A quantity of the time series that has come to its end where a run is steady.
+/// A quantity of the time series that is constant in a steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Watched {
     /// Its column of `series.csv`.
     pub column: &'static str,
-    /// What it is, which says what its changes are compared with.
+    /// Its kind, which determines the reference for its changes.
     pub kind: Quantity,
 }
 
@@ -225,29 +225,29 @@ pub struct Watched {
 pub enum Quantity {
     /// A contact angle in degrees.
     Angle {
-        /// Column of the kinetic energy in J/m: what of it is still to be lost can turn the interface.
+        /// Column of the kinetic energy in J/m: the energy not yet dissipated can still rotate the interface.
         energy: &'static str,
         /// Column of the length of the interface in m.
         length: &'static str,
         /// Interfacial tension in N/m.
         tension: f64,
-        /// Least and largest angle in degrees at which all contact lines rest; absent where something drives the flow, or walls differ.
+        /// Smallest and largest equilibrium angle in degrees of all contact lines; absent if the flow is driven or walls differ.
         at_rest: Option<[f64; 2]>,
-        /// Whether a contact line may rest at other angles, at edges.
+        /// Whether contact lines may rest at other angles, at edges.
         pins: bool,
     },
-    /// A difference of pressures in Pa, compared with its value, or with `scale` in Pa where that is larger.
+    /// A pressure difference in Pa; its changes are relative to its value or to `scale` in Pa, whichever is larger.
     Pressure {
         /// What counts as a small pressure, in Pa.
         scale: f64,
     },
-    /// A share of the pore space, compared with 1.
+    /// A fraction of the pore space; its changes are absolute.
     Saturation,
-    /// Kinetic energy, compared with its value, unless all particles rest.
+    /// Kinetic energy; its changes are relative to its value, unless all particles are at rest.
     Energy {
         /// Column of the largest speed in m/s.
         speed: &'static str,
-        /// Speed in m/s at a capillary number of 1; absent without a tension.
+        /// Speed in m/s at a capillary number of 1; absent without interfacial tension.
         capillary_speed: Option<f64>,
     },
 }
@@ -262,7 +262,7 @@ impl Quantity {
         }
     }
 
-    /// A change that counts as none, where the quantity is measured without an error bar: of a saturation that of a hundredth.
+    /// A change that is negligible, for a quantity measured without an error bar: one percent for a saturation.
     pub(crate) fn small(self) -> Option<f64> {
         matches!(self, Self::Saturation).then_some(0.01)
     }
@@ -270,39 +270,38 @@ impl Quantity {
 
 /// A solver that the simulation loop can run. It does no I/O and prints nothing; time advances in `step` only.
 pub trait Solver {
-    /// Where the run stands on its [`clock`](Self::clock): the time in s, for most solvers.
+    /// Position of the run on its [`clock`](Self::clock): the time in s, for most solvers.
     fn time(&self) -> f64;
 
-    /// What [`time`](Self::time) counts.
+    /// The independent variable of [`time`](Self::time).
     fn clock(&self) -> Clock {
         Clock::TIME
     }
 
-    /// Whether nothing will happen any more, so that the run ends here.
+    /// Whether the run is complete, as no further event can occur.
     fn is_done(&self) -> bool {
         false
     }
 
-    /// Number of steps done since time zero (resumed runs go on counting).
+    /// Number of steps done since time zero (continued in resumed runs).
     fn steps(&self) -> u64;
 
-    /// Does one step that ends at `until` (s) or before. Landing on `until` is exact: afterwards `time() == until`, unless the run
-    /// is done before.
+    /// Does one step that ends at `until` (s) or before. `until` is reached exactly: afterwards `time() == until`, unless the run is done before.
     ///
     /// # Errors
-    /// See [`SolverError`]; the state before the step is kept and can still be saved and shown.
+    /// See [`SolverError`]; the state before the step is kept and can still be saved and output.
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError>;
 
-    /// The state for output. May compute fields, so call it per record, not per step.
+    /// The state for output. May compute fields; to be called per record, not per step.
     fn snapshot(&self) -> Snapshot<'_>;
 
-    /// The outline of the solids, which does not move.
+    /// The outline of the solids, which is stationary.
     fn outline(&self) -> Lines<'_>;
 
     /// One row of the time series: the clock (`time_s`) and `step` first, always the same names in the same order.
     fn sample(&self) -> Vec<Sample>;
 
-    /// What of the time series tells that nothing changes any more; nothing: the solver cannot tell.
+    /// The quantities of the time series that detect a steady state; empty if the solver has none.
     fn watched(&self) -> Vec<Watched> {
         Vec::new()
     }
@@ -310,12 +309,12 @@ pub trait Solver {
     /// The final results; `series` holds all rows recorded so far.
     fn measures(&self, series: &Series) -> Vec<Measure>;
 
-    /// What a reader must know before trusting the measures, now: what is not resolved, what is out of the model's reach; `series` as for [`measures`](Self::measures).
+    /// Current limitations on the measures: lack of resolution, limits of the model; `series` as for [`measures`](Self::measures).
     fn warnings(&self, _series: &Series) -> Vec<String> {
         Vec::new()
     }
 
-    /// Diagrams of the run so far, where the solver kept what they show.
+    /// Diagrams of the run so far, if the solver recorded their data.
     fn diagrams(&self) -> Vec<Diagram> {
         Vec::new()
     }
@@ -325,25 +324,25 @@ pub trait Solver {
         Vec::new()
     }
 
-    /// What is left at the end beside measures and diagrams.
+    /// Final output besides measures and diagrams.
     fn results(&self) -> Results<'_> {
         Results::default()
     }
 
-    /// All that the future depends on, so that `restore` and more steps give the same bits as an unbroken run.
+    /// The complete state, such that `restore` and further steps are bitwise identical to an uninterrupted run.
     fn state(&self) -> Vec<u8>;
 
-    /// Takes up a state that `state` returned for the same case.
+    /// Restores a state returned by `state` for the same case.
     ///
     /// # Errors
-    /// [`StateError`] where the bytes are not such a state.
+    /// [`StateError`] if the bytes are not such a state.
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError>;
 
-    /// About how many steps lead from here to `end` in s, where the solver knows better than the length of its last step tells.
+    /// Approximate number of steps from here to `end` in s, if the solver has a better estimate than the length of its last step.
     fn steps_to(&self, _end: f64) -> Option<f64> {
         None
     }
 
-    /// Wall time by part and counts of the solver's work.
+    /// Wall time of each part and work counters of the solver.
     fn statistics(&self) -> Statistics;
 }

@@ -11,10 +11,10 @@ use crate::sph::observe::Observation;
 /// Columns and measures of its table `[sph.measure.capillary-rise]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
-/// `apex_m`: distance of the nearest point of the interface from the side that the wetting phase comes in through.
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
+/// `apex_m`: distance of the nearest point of the interface from the side through which the wetting phase enters.
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let apex = entry(flow).map_or(f64::NAN, |side| {
-        let points = seen.interface.iter().flat_map(|line| &line.points);
+        let points = observation.interface.iter().flat_map(|line| &line.points);
         points.map(|x: &Vec2| -side.beyond(*x)).fold(f64::INFINITY, f64::min)
     });
     vec![("apex_m", apex)]

@@ -18,7 +18,7 @@ pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 /// A standing wave on the flat interface of two equal fluids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CapillaryWave {
-    /// Length of the wave in m.
+    /// Wavelength in m.
     pub(crate) length: f64,
     /// Interfacial tension in N/m.
     pub(crate) tension: f64,
@@ -35,7 +35,7 @@ impl CapillaryWave {
         (self.tension * k.powi(3) / (2.0 * self.density)).sqrt()
     }
 
-    /// Amplitude at `time` (s) over that at time zero, from rest [Prosperetti1981 for equal fluids].
+    /// Amplitude at `time` (s) relative to that at time zero, from rest [Prosperetti1981 for equal fluids].
     ///
     /// Its Laplace transform is 1/(s + w² (1 - k/sqrt(k² + s/nu))/s).
     pub(crate) fn amplitude(&self, time: f64) -> f64 {
@@ -51,7 +51,7 @@ impl CapillaryWave {
     }
 }
 
-/// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, crest in the middle of the box.
+/// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, with the crest in the middle of the box.
 fn columns(flow: &Flow, _: &Observation) -> Columns {
     let (bounds, fluids) = (flow.config.domain.bounds, flow.state.particles.fluids);
     let length = bounds.size().x;
@@ -88,7 +88,7 @@ mod tests {
     fn the_capillary_wave_of_equal_fluids_has_the_printed_amplitudes() {
         let wave = CapillaryWave { length: 1.0, tension: 1.0, density: 1.0, viscosity: 0.018_257_174_9 };
         let w = wave.frequency();
-        // sqrt(4 pi³); the printed 11.13665597 is two off in its last digit.
+        // sqrt(4 pi³); the printed 11.13665597 is off by two in its last digit.
         assert!((w - 11.136_655_97).abs() < 3e-8, "{w}");
         for (phase, expected) in [
             (1.0, 0.60738),
@@ -100,7 +100,7 @@ mod tests {
             (15.0, 0.11368),
             (20.0, 0.09324),
         ] {
-            // Half of the last digit printed, doubled for that of the viscosity.
+            // Half a unit in the last printed digit, doubled for the rounding of the viscosity.
             let found = wave.amplitude(phase / w);
             assert!((found - expected).abs() < 1e-5, "{phase}: {found}");
         }

@@ -9,7 +9,7 @@ use crate::sph::observe::fluid_samples;
 /// Measures of its table `[sph.measure.cavity]`.
 pub(crate) const GROUP: Group = Group::of(measures);
 
-/// Points on a center line: much closer than particles, so that the extremum is met.
+/// Points on a center line: much denser than the particles, to resolve the extremum.
 const POINTS: usize = 400;
 
 fn measures(s: &Subject) -> Vec<Measure> {

@@ -14,10 +14,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let p = &flow.state.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.bulk.volume[a] * p.velocity[a]).sum();
     let force = m.wetting_fluid.density * m.gravity;
-    // Along the force, so that its direction does not matter.
+    // Along the force, so that its direction is arbitrary.
     let along = force.try_normalize(0.0).unwrap_or_else(Vec2::x);
     let mean = flux.dot(&along) / area;
-    // Side walls take their part; whatever stands within the cell takes the rest.
+    // The part carried by side walls is subtracted from the total; the rest acts on the solids within the cell.
     let bounds = flow.config.domain.bounds;
     let is_side = |x: Vec2| !bounds.contains(x);
     let mu_u = m.wetting_fluid.viscosity * mean;
@@ -39,7 +39,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     ]
 }
 
-/// Magnitude in N/m of the rate at which the fluid gathered momentum between the last two records.
+/// Magnitude in N/m of the rate of change of the fluid's momentum between the last two records.
 fn acceleration(s: &Subject) -> f64 {
     let (times, x) = pairs(s.series, "momentum_x_kg_per_m_s");
     let (_, y) = pairs(s.series, "momentum_y_kg_per_m_s");

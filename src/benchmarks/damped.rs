@@ -7,17 +7,16 @@ use nalgebra::{Matrix5, Vector5};
 pub(crate) struct DampedFit {
     /// Angular frequency w in 1/s.
     pub(crate) frequency: f64,
-    /// Rate of decay b in 1/s.
+    /// Decay rate b in 1/s.
     pub(crate) decay: f64,
-    /// Standard errors of both in 1/s, values counted as independent.
+    /// Standard errors of both in 1/s, for independent values.
     pub(crate) errors: [f64; 2],
 }
 
-/// Values per unknown below which there is no fit.
+/// Minimum number of values for a fit.
 const LEAST_VALUES: usize = 15;
 
-/// Fits `values` at `times` (s), the frequency near `frequency` (1/s); nothing where there are fewer than three values per
-/// unknown or the iteration does not settle.
+/// Fits `values` at `times` (s), with the frequency near `frequency` (1/s); `None` with fewer than three values per unknown or without convergence.
 pub(crate) fn fit(times: &[f64], values: &[f64], frequency: f64) -> Option<DampedFit> {
     let first = *times.first()?;
     if times.len() < LEAST_VALUES || !values.iter().all(|v| v.is_finite()) {
@@ -26,7 +25,7 @@ pub(crate) fn fit(times: &[f64], values: &[f64], frequency: f64) -> Option<Dampe
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let mut p = Vector5::new(values[0] - mean, 0.0, mean, 0.1 * frequency, frequency);
     let mut cost = residuals(times, values, first, &p).1;
-    // Levenberg's damping: raised where a step fails, lowered where it helps.
+    // Levenberg's damping: raised after a failed step, lowered after a successful one.
     let mut damping = 1e-3;
     let mut settled = false;
     for _ in 0..200 {
@@ -53,7 +52,7 @@ pub(crate) fn fit(times: &[f64], values: &[f64], frequency: f64) -> Option<Dampe
     settled.then_some(DampedFit { frequency: p[4].abs(), decay: p[3], errors: [error(4), error(3)] })
 }
 
-/// Value of the model at `t` (s) after the first time, and its slope by each parameter.
+/// Value of the model at `t` (s) after the first time, and its derivatives with respect to the parameters.
 fn model(t: f64, p: &Vector5<f64>) -> (f64, Vector5<f64>) {
     let (envelope, c, s) = ((-p[3] * t).exp(), (p[4] * t).cos(), (p[4] * t).sin());
     let wave = envelope * (p[0] * c + p[1] * s);
@@ -84,7 +83,7 @@ mod tests {
 
     fn series(noise: f64) -> (Vec<f64>, Vec<f64>) {
         let times: Vec<f64> = (0..150).map(|i| 0.3 + 0.02 * f64::from(i)).collect();
-        // A fast ripple in place of noise, so that the test has the same numbers every time.
+        // A fast ripple instead of noise, so that the test is reproducible.
         let value = |t: f64| 0.01 + 0.2 * (-0.7 * t).exp() * (5.0 * t + 0.4).cos() + noise * (131.0 * t).sin();
         (times.clone(), times.into_iter().map(value).collect())
     }

@@ -1,42 +1,42 @@
-//! Two equal discs among the solids, and the exact solutions of bridges and menisci between them without gravity.
+//! Two equal discs among the solids, and exact solutions for bridges and menisci between them without gravity.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::analysis::roots::bisect;
 use crate::sph::measures::{DiscOf, Subject};
 
-/// Two equal discs with a gap, and the angle of contact on them.
+/// Two equal discs with a gap and their contact angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiscPair {
     /// Radius of the discs in m.
     pub radius: f64,
-    /// Half of the gap between them in m.
+    /// Half of the gap width in m.
     pub half_gap: f64,
     /// Contact angle in rad.
     pub angle: f64,
 }
 
 impl DiscPair {
-    /// Half of the distance in m between the contact points at the angle `b` (rad) outward from the line of centers.
+    /// Half of the distance in m between the contact points at the polar angle `b` (rad), measured outward from the line of centers.
     fn half_chord(&self, b: f64) -> f64 {
         self.half_gap + self.radius * (1.0 - b.cos())
     }
 
-    /// Curvature in 1/m of the meniscus with contact points at `b` (rad), p_n - p_w over the tension.
+    /// Curvature in 1/m of the meniscus with contact points at `b` (rad): (p_n - p_w)/σ.
     pub fn curvature(&self, b: f64) -> f64 {
         (self.angle + b).cos() / self.half_chord(b)
     }
 
-    /// Area in m² between the discs from the line of centers to the contact points, both sides of the gap's middle line.
+    /// Area in m² between the discs from the line of centers to the contact points, on both sides of the middle line of the gap.
     fn strip(&self, b: f64) -> f64 {
         2.0 * (self.radius + self.half_gap) * self.radius * b.sin() - self.radius.powi(2) * (b + b.sin() * b.cos())
     }
 
-    /// Signed area in m² between the chord of the contact points and the meniscus, positive where that bulges inward.
+    /// Signed area in m² between the chord of the contact points and the meniscus, positive if the meniscus bulges inward.
     fn segment(&self, b: f64) -> f64 {
         let half = FRAC_PI_2 - (self.angle + b);
         let chord = self.half_chord(b);
-        // (a - sin a cos a)/sin² a, regular where the meniscus is straight.
+        // (a - sin a cos a)/sin² a, regular for a straight meniscus.
         let shape =
             if half.abs() < 1e-4 { 2.0 * half / 3.0 } else { (half - half.sin() * half.cos()) / half.sin().powi(2) };
         chord * chord * shape
@@ -47,9 +47,9 @@ impl DiscPair {
         4.0 * (self.radius + self.half_gap).powi(2) - PI * self.radius.powi(2) + 4.0 * (self.strip(b) - self.segment(b))
     }
 
-    /// The liquid of `area` (m²) between four discs; nothing where it is less or more than the discs can hold.
+    /// The liquid of `area` (m²) between four discs; `None` outside the range that the discs can hold.
     ///
-    /// Searched outward of the largest curvature, where the state is stable for a given area.
+    /// Sought outward of the largest curvature, where the state is stable at fixed area.
     pub(crate) fn liquid_between_four(&self, area: f64) -> Option<FourDiscs> {
         let inner = self.angle_of_largest_curvature();
         let outer = FRAC_PI_2.min(PI - self.angle) - 1e-6;
@@ -57,22 +57,22 @@ impl DiscPair {
         Some(FourDiscs { contact, curvature: self.curvature(contact) })
     }
 
-    /// Contact point in rad where the curvature is largest: d(curvature)/db = 0.
+    /// Polar angle of the contact point in rad at which the curvature is largest: d(curvature)/db = 0.
     fn angle_of_largest_curvature(&self) -> f64 {
         let slope =
             |b: f64| -(self.angle + b).sin() * self.half_chord(b) - (self.angle + b).cos() * self.radius * b.sin();
         bisect(slope, -self.angle - 1e-9, 1e-9).unwrap_or(-self.angle)
     }
 
-    /// The bridge of `area` (m²) between two such discs; nothing where none fits.
+    /// The bridge of `area` (m²) between two such discs; `None` if there is none.
     pub(crate) fn bridge(&self, area: f64) -> Option<Bridge> {
         let covered = |b: f64| 2.0 * (self.strip(b) - self.segment(b));
-        // The first root outward of the touching menisci is the bridge; where the area starts above, there is none.
+        // The first root outward of the state with touching menisci is the bridge; if the area there is larger already, there is none.
         let outer = FRAC_PI_2.min(PI - self.angle) - 1e-6;
         let filling = bisect(|b| covered(b) - area, 0.0, outer)?;
         let curvature = self.curvature(filling);
         let half = FRAC_PI_2 - (self.angle + filling);
-        // Height of the arc over its chord: r (1 - cos a) = chord tan(a/2).
+        // Sagitta of the arc: r (1 - cos a) = half chord times tan(a/2).
         let half_neck = self.radius * filling.sin() - self.half_chord(filling) * (0.5 * half).tan();
         Some(Bridge { filling, curvature, half_neck, force: 2.0 + 2.0 * curvature * half_neck })
     }
@@ -81,9 +81,9 @@ impl DiscPair {
 /// Liquid between four discs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FourDiscs {
-    /// Contact point in rad, outward from the line of centers.
+    /// Polar angle of the contact point in rad, outward from the line of centers.
     pub(crate) contact: f64,
-    /// Curvature of the menisci in 1/m, p_n - p_w over the tension.
+    /// Curvature of the menisci in 1/m: (p_n - p_w)/σ.
     pub(crate) curvature: f64,
 }
 
@@ -92,15 +92,15 @@ pub(crate) struct FourDiscs {
 pub(crate) struct Bridge {
     /// Filling angle in rad.
     pub(crate) filling: f64,
-    /// p_n - p_w over the tension in 1/m.
+    /// (p_n - p_w)/σ in 1/m.
     pub(crate) curvature: f64,
-    /// Half of the width of the neck in m.
+    /// Half of the neck width in m.
     pub(crate) half_neck: f64,
-    /// Attraction of the discs over the tension (a force per depth over N/m: a pure number).
+    /// Attractive force between the discs per depth over the interfacial tension (dimensionless).
     pub(crate) force: f64,
 }
 
-/// The first disc and the one nearest to it as a pair with the requested contact angle; none where their radii differ or nothing wets them.
+/// The first disc and its nearest neighbor as a pair with the contact angle of the case; `None` if their radii differ or no wetting model applies.
 pub(crate) fn disc_pair(s: &Subject) -> Option<DiscPair> {
     let [a, rest @ ..] = s.discs else { return None };
     let distance = |b: &&DiscOf| (b.center - a.center).norm();

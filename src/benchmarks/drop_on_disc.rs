@@ -13,20 +13,20 @@ pub(crate) const GROUP: Group = Group::of(measures);
 /// A drop on a disc without gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DropOnDisc {
-    /// Half of the angle in rad under which the disc's center sees the wetted part of the disc.
+    /// Half of the angle in rad that the wetted part of the disc subtends at its center.
     pub(crate) half_angle: f64,
     /// Height over the disc in m.
     pub(crate) height: f64,
 }
 
-/// The drop of `area` (m²) with the contact `angle` (rad) on a disc of `disc_radius` (m); nothing where none fits.
+/// The drop of `area` (m²) with the contact `angle` (rad) on a disc of `disc_radius` (m); `None` if there is none.
 ///
-/// Centers at c² = R² + r² - 2 R r cos theta; the area is that of the drop's circle less its overlap with the disc.
+/// The distance of the centers is c² = R² + r² - 2 R r cos theta; the area is that of the drop's circle minus its overlap with the disc.
 pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<DropOnDisc> {
     let distance = |r: f64| (disc_radius.powi(2) + r * r - 2.0 * disc_radius * r * angle.cos()).sqrt();
     let half_angle = |r: f64| {
         let c = distance(r);
-        // The arctangent of sine and cosine keeps half angles above 90 degrees.
+        // The two-argument arctangent is valid for half angles above 90 degrees too.
         (r * angle.sin() / c).atan2((disc_radius - r * angle.cos()) / c)
     };
     let drop_area = |r: f64| {
@@ -37,7 +37,7 @@ pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<Dr
         let of_drop = r * r * ((PI - gamma) + gamma.sin() * gamma.cos());
         of_drop - of_disc
     };
-    // A very small drop sits on a flat wall; a very large one swallows the disc.
+    // Limits: a very small drop sits on a flat wall; a very large one encloses the disc.
     let scale = cap(area, angle).radius;
     let radius = bisect(|r| drop_area(r) - area, 1e-3 * scale, scale.max(disc_radius) * 1e3)?;
     Some(DropOnDisc { half_angle: half_angle(radius), height: distance(radius) + radius - disc_radius })
@@ -83,7 +83,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 mod tests {
     use super::*;
 
-    /// Half of the last digit printed.
+    /// Half a unit in the last printed digit.
     const PRINTED: f64 = 0.6e-5;
 
     #[test]

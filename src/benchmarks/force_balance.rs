@@ -1,29 +1,29 @@
-//! The balance of the forces on a drop along its wall, each of them measured on its own.
+//! The balance of the forces on a drop along its wall, with each force measured independently.
 //!
-//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A). The friction of the wall is that under
-//! the whole drop, so the angles that close the balance are those at the wall, which the wetting model asks for. Apparent angles of
-//! moving lines count the friction of the wedge next to the line a second time, since that is what bends the interface there.
+//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A). The wall friction includes that under the
+//! wedges next to the contact lines, so the balance is closed by the angles at the wall, which the wetting model prescribes. With the apparent angles of
+//! moving lines the friction in the wedge would count twice, since it is what bends the interface there.
 
 use super::series::{last, last_mean};
 use crate::solver::{Measure, Series};
 use crate::sph::measures::{Subject, measure};
 
-/// The last part of the time that the balance is taken over. It holds at all times, also while the drop speeds up, and a drop of a thin
-/// liquid swings: the longer the better.
+/// Last fraction of the time over which the balance is averaged. It holds at all times, also during acceleration, and a drop of low viscosity oscillates: a
+/// long average is best.
 const BALANCED: f64 = 0.75;
 
-/// Share of the tension that the balance of momentum may miss before a reader must know: the drag is then known no better.
+/// Error of the momentum balance over the tension that causes a warning: the drag is known no more accurately.
 const LARGEST_ERROR: f64 = 0.01;
 
 /// Mean forces along the wall in N/m over the last three quarters of the time.
 struct Balance {
     /// Tension times the difference of the cosines of the apparent angles.
     retention: f64,
-    /// The same with the angles at the wall.
+    /// The same for the angles at the wall.
     wall_retention: f64,
-    /// Pressure and friction of the other fluid.
+    /// Pressure and viscous force of the other fluid.
     stream: f64,
-    /// All forces but the retention, less the change of momentum.
+    /// The sum of all forces but the retention, minus the rate of change of the momentum.
     net_drag: f64,
     tension: f64,
 }
@@ -31,7 +31,7 @@ struct Balance {
 impl Balance {
     fn of(s: &Subject) -> Self {
         let (tension, series) = (s.flow.config.method.tension, s.series);
-        // A mean of cosines: a line that lets go now and then has not the cosine of its mean angle.
+        // Mean of cosines: for a line in stick-slip it differs from the cosine of the mean angle.
         let cosine = |column: &str| average(series, column, |angle| angle.to_radians().cos());
         let pull = |advancing: &str, receding: &str| tension * (cosine(receding) - cosine(advancing));
         let force = |column: &str| average(series, column, |force| force);
@@ -46,29 +46,29 @@ impl Balance {
         }
     }
 
-    /// What the balance misses, over the tension.
+    /// Residual of the balance over the tension.
     fn error(&self) -> f64 {
         (self.net_drag - self.wall_retention) / self.tension
     }
 }
 
-/// Warns where the forces on the drop do not balance.
+/// Warns if the forces on the drop do not balance.
 pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     let error = Balance::of(s).error();
-    let told = (error.abs() > LARGEST_ERROR).then(|| {
+    let warning = (error.abs() > LARGEST_ERROR).then(|| {
         format!(
             "the forces on the drop along its wall miss the change of its momentum by {error:.3} of the tension: drag and retention are \
              known no better (momentum-balance-error)"
         )
     });
-    told.into_iter().collect()
+    warning.into_iter().collect()
 }
 
-/// The angles at the wall and the balance of the forces along it.
+/// The angles at the wall and the force balance along it.
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, series) = (s.flow.config.method.tension, s.series);
     let balance = Balance::of(s);
-    let (seen, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);
+    let (apparent, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);
     let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
     let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
     let static_angle = s.flow.config.method.wetting.map_or(f64::NAN, |model| model.static_angle());
@@ -83,7 +83,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             None,
             "tension times the cosine of the static angle: that of the dry less that of the wetted wall",
         ),
-        measure("retention-N-per-m", seen, "N/m", None, retention),
+        measure("retention-N-per-m", apparent, "N/m", None, retention),
         measure("wall-retention-N-per-m", at_wall, "N/m", None, "the same with the angles at the wall"),
         measure(
             "stream-drag-N-per-m",
@@ -100,7 +100,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             "body force less buoyancy plus friction of the wall plus drag of the stream less the change of the momentum of the drop, along \
              the wall, over the last three quarters of the time",
         ),
-        measure("drag-over-retention", drag / seen, "", None, "net drag over the retention by the apparent angles"),
+        measure("drag-over-retention", drag / apparent, "", None, "net drag over the retention by the apparent angles"),
         measure(
             "drag-over-wall-retention",
             drag / at_wall,
@@ -118,7 +118,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     ]
 }
 
-/// The mean in time of a function of a column over the last three quarters of the time, by the trapezoidal rule.
+/// The time average of a function of a column over the last three quarters of the time, by the trapezoidal rule.
 fn average(series: &Series, column: &str, f: impl Fn(f64) -> f64) -> f64 {
     let points = last(series, column, BALANCED);
     let (mut sum, mut time) = (0.0, 0.0);
@@ -130,7 +130,7 @@ fn average(series: &Series, column: &str, f: impl Fn(f64) -> f64) -> f64 {
     sum / time
 }
 
-/// What a column gains per time over the last three quarters of the time: to the mean of a force belongs the gain from end to end.
+/// Mean rate of change of a column over the last three quarters of the time, from its end values: the counterpart of the mean force.
 fn rise(series: &Series, column: &str) -> f64 {
     match last(series, column, BALANCED)[..] {
         [first, .., last] => (last.1 - first.1) / (last.0 - first.0),
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn the_mean_of_a_force_is_the_gain_of_momentum_however_it_swings() {
-        // A force 1 + 20 cos(20 t), sampled twenty times a swing, and its momentum.
+        // A force 1 + 20 cos(20 t), sampled twenty times per period, and its momentum.
         let rows = (0..=200).map(|i| {
             let t = 0.0157 * f64::from(i);
             vec![t, 1.0 + 20.0 * (20.0 * t).cos(), t + (20.0 * t).sin()]
@@ -152,7 +152,7 @@ mod tests {
         let columns = ["time_s", "force", "momentum"].map(str::to_owned).to_vec();
         let series = Series { columns, rows: rows.collect() };
         let (force, gain) = (average(&series, "force", |f| f), rise(&series, "momentum"));
-        // The trapezoidal rule over twenty points a swing.
+        // Accuracy of the trapezoidal rule with twenty points per period.
         assert!((force - gain).abs() < 0.02, "{force} {gain}");
     }
 }

@@ -7,7 +7,7 @@ use crate::sph::particles::Phase;
 /// Measures of its table `[sph.measure.jurin]`.
 pub(crate) const GROUP: Group = Group::of(measures);
 
-/// Mean height in m of rise between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
+/// Mean rise in m between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
 pub(crate) fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
     2.0 * capillary_length.powi(2) * angle.cos() / width
 }
@@ -19,7 +19,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let mut areas = [0.0; 2];
     for a in 0..flow.state.particles.fluids {
         let x = flow.state.particles.position[a];
-        // Below the plate the trough is one; its area says nothing of the levels.
+        // Below the plate both parts are connected; the area there is independent of the levels.
         if flow.state.particles.phase[a] == Phase::Wetting && x.y > plate.min.y {
             if x.x < plate.min.x {
                 areas[0] += flow.fields.bulk.volume[a];

@@ -11,7 +11,7 @@ use crate::sph::observe::sharp_color;
 /// Measures of its table `[sph.measure.laplace-drop]`.
 pub(crate) const GROUP: Group = Group::of(measures);
 
-/// The parasitic current is the largest speed in this last share of the run.
+/// Last fraction of the run over which the maximum speed of the parasitic current is taken.
 const LAST: f64 = 0.1;
 
 fn measures(s: &Subject) -> Vec<Measure> {
@@ -26,7 +26,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
         period: flow.config.domain.periods(),
     };
     let jump = laplace_jump(&samples, center(s), radius);
-    // Between floor and lid the curvature over the depth acts too.
+    // Between floor and lid the curvature over the depth contributes too.
     let plates = flow.config.method.plates;
     let curvature = plates.map_or(1.0 / radius, |plates| -plates.depth.curvature_of_drop(-1.0 / radius));
     let scale = flow.config.method.tension * curvature;
@@ -61,7 +61,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     ]
 }
 
-/// Standard deviation over mean of the distance of contour points from the center.
+/// Standard deviation over mean of the distance of the contour points from the center.
 fn scatter(s: &Subject) -> f64 {
     let center = center(s);
     let points = s.seen.interface.iter().flat_map(|line| &line.points);
@@ -70,7 +70,7 @@ fn scatter(s: &Subject) -> f64 {
     (radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64).sqrt() / mean
 }
 
-/// Center of the drop in m, also where it lies across a periodic side.
+/// Center of the drop in m, also if it lies across a periodic side.
 fn center(s: &Subject) -> Vec2 {
     Moments::of_wetting_phase(s.flow).center
 }

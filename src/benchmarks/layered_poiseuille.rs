@@ -7,7 +7,7 @@ use crate::sph::particles::Phase;
 /// Measures of its table `[sph.measure.layered-poiseuille]`.
 pub(crate) const GROUP: Group = Group::of(measures);
 
-/// Two layers between plates at y = 0 and y = H, driven by a force per volume; layer 1 lies below.
+/// Two layers between plates at y = 0 and y = H, driven by a force per volume; layer 1 is the lower one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LayeredPoiseuille {
     /// Driving force per volume in N/m³.
@@ -50,7 +50,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let p = &flow.state.particles;
     let height = bounds.size().y;
     let below = height * s.seen.areas.saturation();
-    // A force per volume: the densities are equal, or the law does not hold.
+    // The driving force is per volume: the solution holds for equal densities only.
     let equal = m.wetting_fluid.density == m.other_fluid.density;
     let law = LayeredPoiseuille {
         force: if equal { m.mean_density() * m.gravity.x } else { f64::NAN },

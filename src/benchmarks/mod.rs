@@ -1,14 +1,13 @@
-//! Benchmarks: named cases, one file for each table `[sph.measure.NAME]` of a case file but those of the permeabilities, which are no benchmarks.
+//! Benchmarks: named cases, one file for each table `[sph.measure.NAME]` of a case file except those of the permeabilities, which are not benchmarks.
 //!
-//! A benchmark is a [`Group`] of measures: further columns of the time series, and measures at the end. It sees the flow and what is
-//! observed of it; the solver gets the groups of a case as a list and knows none of them (`src/run/setup.rs`).
+//! A benchmark is a [`Group`] of measures: further columns of the time series, and measures at the end. Its input is the flow and the observation of it; the
+//! solver receives the groups of a case as a list and does not depend on them (`src/run/setup.rs`).
 //!
-//! An exact solution stands in the file of its benchmark; those between two discs, which two benchmarks need, in [`disc_pair`], and the
-//! drop on a flat wall, which the solver needs too, in [`cap`](crate::interface::cap). Angles are in rad through the wetting phase,
-//! lengths in m.
+//! An exact solution is in the file of its benchmark; those between two discs, used by two benchmarks, in [`disc_pair`], and the drop on a flat wall, used by
+//! the solver too, in [`cap`](crate::interface::cap). Angles are in rad through the wetting phase, lengths in m.
 //!
-//! Tools: `series` reads the time series, `moments` is the shape of a drop, `damped` fits an oscillation, `waves` has what the solutions
-//! of waves and drops share, `force_balance` is that of a drop on a wall.
+//! Tools: `series` reads the time series, `moments` describes the shape of a drop, `damped` fits an oscillation, `waves` has the common parts of the
+//! solutions for waves and drops, `force_balance` is that of a drop on a wall.
 
 mod capillary_bridge;
 mod capillary_rise;

@@ -1,4 +1,4 @@
-//! Center and second moments of a drop or bubble: where it is, how far from round, and how long along which axis.
+//! Center and second moments of a drop or bubble: its position, deformation and extent along the axes.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Of `points` (m), each of the same area; NaN of nothing.
+    /// Of `points` (m), each of the same area; NaN without points.
     pub(crate) fn of(points: &[Vec2]) -> Self {
         let count = points.len() as f64;
         let center = points.iter().sum::<Vec2>() / count;
@@ -34,7 +34,7 @@ impl Moments {
         relative_difference(self.second[(0, 0)].sqrt(), self.second[(1, 1)].sqrt())
     }
 
-    /// (L - B)/(L + B) with length and breadth of the ellipse that has these moments, along its own axes.
+    /// (L - B)/(L + B) with length and breadth of the ellipse that has these moments, along its principal axes.
     pub(crate) fn deformation(&self) -> f64 {
         let axes = self.second.symmetric_eigenvalues();
         relative_difference(axes.max().max(0.0).sqrt(), axes.min().max(0.0).sqrt())
@@ -45,7 +45,7 @@ fn relative_difference(a: f64, b: f64) -> f64 {
     (a - b) / (a + b)
 }
 
-/// Positions in m of the wetting particles, joined across periodic sides: right for parts shorter than a period.
+/// Positions in m of the wetting particles, unwrapped across periodic sides: correct for drops smaller than a period.
 fn wetting_points(flow: &Flow) -> Vec<Vec2> {
     let fluids = flow.state.particles.fluids;
     let wetting = |a: &usize| flow.state.particles.phase[*a] == Phase::Wetting;
@@ -54,11 +54,11 @@ fn wetting_points(flow: &Flow) -> Vec<Vec2> {
         Some(period) => mean_on_circle(inside.iter().map(|x| x[axis]), period),
         None => 0.0,
     });
-    // Points of a drop wider than half a period are still within half a period of its middle.
+    // Points of a drop wider than half a period are still within half a period of its center.
     inside.into_iter().map(|x| middle + flow.config.domain.separation(x, middle)).collect()
 }
 
-/// The mean direction of coordinates that repeat with `period`, in m.
+/// The circular mean of coordinates with the given `period`, in m.
 fn mean_on_circle(coordinates: impl Iterator<Item = f64>, period: f64) -> f64 {
     let (sine, cosine) = coordinates.fold((0.0, 0.0), |(sine, cosine), x| {
         let angle = TAU * x / period;
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use crate::interface::lattice::Lattice;
 
-    /// Lattice points in the ellipse with half axes 1.2 and 0.8, turned by `turn` (rad).
+    /// Lattice points in the ellipse with semi-axes 1.2 and 0.8, rotated by `turn` (rad).
     fn ellipse(turn: f64) -> Vec<Vec2> {
         let mut points = Lattice::open(Vec2::repeat(-1.5), Vec2::repeat(0.01), [301, 301]).nodes();
         points.retain(|x| {
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn the_deformation_of_an_ellipse_does_not_depend_on_its_turn() {
-        // The lattice's rough edge moves the moments by some hundredths of a spacing.
+        // The staircase boundary of the lattice changes the moments by some hundredths of a spacing.
         for turn in [0.0, 0.4, 1.2] {
             let moments = Moments::of(&ellipse(turn));
             assert!((moments.deformation() - 0.2).abs() < 1e-3, "{turn}: {moments:?}");
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn the_mean_on_a_circle_lies_in_the_middle_of_a_part_across_the_seam() {
-        // From 0.8 over the seam at 1 to 0.4: more than half of the period 1.
+        // From 0.8 across the seam at 1 to 0.4: more than half of the period 1.
         let part = (0..=60).map(|i| (0.8 + 0.01 * f64::from(i)).rem_euclid(1.0));
         let mean = mean_on_circle(part, 1.0);
         assert!((mean - 0.1).abs() < 1e-12, "{mean}");

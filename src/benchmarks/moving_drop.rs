@@ -1,8 +1,9 @@
-//! A drop that moves along a wall, or that its lines hold (C11 and C12 of the benchmarks): angles, places and speeds of its lines, and forces.
+//! A drop that moves along a wall or is pinned (C11 and C12 of the benchmarks): angles, positions and speeds of its contact lines, and forces.
 //!
-//! *Ahead* is the way that the drop is driven, the same for all of a run: the part of the body force along the wall, less buoyancy; else the stream that
-//! the case gives, relative to the wall; else the way that its lines have gone once that is a spacing. Lines whose ν_ns points ahead are the advancing ones. The momentum of the drop along a flat wall changes by
-//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A): see `force_balance`.
+//! *Ahead* is the direction in which the drop is driven, constant during a run: that of the body force along the wall, less buoyancy; else of the prescribed
+//! stream relative to the wall; else of the displacement of its lines once that reaches a spacing. Lines whose ν_ns points ahead are the advancing ones. For
+//! the momentum of the drop along a flat wall, d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A):
+//! see `force_balance`.
 
 use super::force_balance;
 use super::series::{LAST_QUARTER, last, last_mean};
@@ -18,27 +19,27 @@ use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::wetting::lines::{TrackedLine, nearest};
 
-/// Share of the contour next to a line that is fitted, where the drop has advancing and receding lines, which the flow bends unlike. A meniscus
-/// that moves as a whole is fitted as a whole.
+/// Fraction of the contour next to a line that is fitted, if the drop has advancing and receding lines, which the flow bends differently. A meniscus that
+/// moves as a whole is fitted as a whole.
 const WINDOW: f64 = 0.5;
 
-/// Measured lines belong to followed ones within this distance over h.
+/// Measured lines are identified with tracked ones within this distance over h.
 const SAME_LINE: f64 = 6.0;
 
-/// A body force or a stream along the wall below this share of the whole does not tell the way ahead.
+/// A body force or a stream whose part along the wall is below this fraction does not define the direction ahead.
 const DRIVEN: f64 = 1e-3;
 
 /// Columns and measures of its table `[sph.measure.moving-drop]`.
 pub(crate) const GROUP: Group = Group { columns, measures, warnings: force_balance::warnings };
 
-/// The lines that go ahead and those that follow, as means.
+/// Means over the advancing and over the receding lines.
 struct Ends {
     ahead: Vec2,
-    /// Apparent angle in degrees, way in m, speed in m/s and angle at the wall in degrees of the advancing and of the receding lines.
+    /// Apparent angle in degrees, displacement in m, speed in m/s and angle at the wall in degrees of the advancing and of the receding lines.
     lines: [[f64; 4]; 2],
 }
 
-/// Where the drop is driven to along the wall of its lines; none where neither a force nor a stream is given and the lines have not moved.
+/// Unit vector along the wall in which the drop is driven; `None` if neither a force nor a stream is given and the lines have not moved.
 fn ahead(flow: &Flow, lines: &[TrackedLine]) -> Option<Vec2> {
     let along = lines.first()?.outward;
     let m = &flow.config.method;
@@ -50,7 +51,7 @@ fn ahead(flow: &Flow, lines: &[TrackedLine]) -> Option<Vec2> {
     Some(along * driving.dot(&along).signum())
 }
 
-fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
+fn ends(flow: &Flow, observation: &Observation) -> Option<Ends> {
     let lines = &flow.lines;
     let ahead = ahead(flow, lines)?;
     let mut sums = [[0.0; 4]; 2];
@@ -70,7 +71,7 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
     let reach = SAME_LINE * flow.config.method.kernel.h;
     let forward = lines.iter().filter(|line| line.outward.dot(&ahead) > 0.0).count();
     let window = if forward == 0 || forward == lines.len() { f64::INFINITY } else { WINDOW };
-    for found in fitted(flow, seen, window) {
+    for found in fitted(flow, observation, window) {
         let same = |outward: Vec2| nearest(lines, &flow.config.domain, found.position, outward, reach);
         let distance = |line: &&TrackedLine| flow.config.domain.separation(line.position, found.position).norm();
         let near = [ahead, -ahead].into_iter().filter_map(same).min_by(|a, b| distance(a).total_cmp(&distance(b)));
@@ -82,8 +83,8 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
     Some(Ends { ahead, lines })
 }
 
-/// The ends of the interface, by fits to the share `window` of the contour next to each.
-fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
+/// The ends of the interface, by fits to the fraction `window` of the contour next to each.
+fn fitted(flow: &Flow, observation: &Observation, window: f64) -> Vec<MeniscusEnd> {
     let m = &flow.config.method;
     let wall = |x: Vec2| WallPoint::from((flow.config.wall)(x));
     let force = (m.wetting_fluid.density - m.other_fluid.density) / m.tension * m.gravity;
@@ -92,7 +93,7 @@ fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
         let settings = ContactSettings { window, ..ContactSettings::for_smoothing_length(m.kernel.h) };
         ends_under_force(std::slice::from_ref(contour), &wall, &settings, force)
     };
-    seen.interface.iter().flat_map(fit).collect()
+    observation.interface.iter().flat_map(fit).collect()
 }
 
 /// Body force on the drop less buoyancy, and viscous force of the walls on it, in N/m.
@@ -104,22 +105,22 @@ fn forces(flow: &Flow) -> [Vec2; 2] {
     [drive, -flow.view().friction(|a, _| is_drop(a))]
 }
 
-/// Angles, ways and speeds of both ends, and what drives the drop along the wall.
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
+/// Angles, displacements and speeds of both ends, and the forces on the drop along the wall.
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let nan = f64::NAN;
-    let ends = ends(flow, seen).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
-    let [[advancing, way, speed, at_wall], [receding, way_behind, speed_behind, at_wall_behind]] = ends.lines;
+    let ends = ends(flow, observation).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
+    let [[advancing, travel, speed, at_wall], [receding, travel_behind, speed_behind, at_wall_behind]] = ends.lines;
     let (p, m) = (&flow.state.particles, &flow.config.method);
     let mass = m.wetting_fluid.density * m.volume;
     let drop = (0..p.fluids).filter(|&a| p.phase[a] == Phase::Wetting);
     let momentum = mass * drop.map(|a| p.velocity[a]).sum::<Vec2>();
     let [drive, friction] = forces(flow);
-    let stream = stream::along(flow, seen, ends.ahead);
+    let stream = stream::along(flow, observation, ends.ahead);
     vec![
         ("advancing_angle_deg", advancing),
         ("receding_angle_deg", receding),
-        ("advancing_line_m", way),
-        ("receding_line_m", way_behind),
+        ("advancing_line_m", travel),
+        ("receding_line_m", travel_behind),
         ("advancing_speed_m_per_s", speed),
         ("receding_speed_m_per_s", speed_behind),
         ("advancing_wall_angle_deg", at_wall),
@@ -132,7 +133,7 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
     ]
 }
 
-/// Slope in time of a column over the last part of the records.
+/// Mean rate of change of a column over the last part of the records.
 fn last_slope(series: &Series, column: &str) -> f64 {
     let points = last(series, column, LAST_QUARTER);
     let count = points.len() as f64;
@@ -153,21 +154,20 @@ fn measures(s: &Subject) -> Vec<Measure> {
         measure("advancing-angle-deg", advancing, "deg", Some(advancing_scatter), fit),
         measure("receding-angle-deg", receding, "deg", Some(receding_scatter), fit),
     ];
-    // Ahead; the speeds are along ν_ns, which points back at the receding end.
+    // Speeds are along ν_ns, which points backwards at the receding end; here ahead is positive.
     let front = last_mean(s.series, "advancing_speed_m_per_s");
     let back = last_mean(s.series, "receding_speed_m_per_s");
-    let way = [last_slope(s.series, "advancing_line_m"), -last_slope(s.series, "receding_line_m")];
+    let speeds = [last_slope(s.series, "advancing_line_m"), -last_slope(s.series, "receding_line_m")];
     let from_velocity = "speed of the line ahead relative to its wall, from the normal velocity of the interface next to it; mean over the last \
                          quarter of the records";
-    let from_way =
-        "slope in time of the place of the line ahead, not relative to the wall, over the last quarter of the records";
+    let from_positions = "slope in time of the position of the line ahead, not relative to the wall, over the last quarter of the records";
     let capillary = |speed: f64| speed * m.wetting_fluid.viscosity / m.tension;
     let over = "viscosity of the wetting phase times the speed of the line over the tension";
     found.extend([
         measure("advancing-speed-m-per-s", front.0, "m/s", Some(front.1), from_velocity),
         measure("receding-speed-m-per-s", -back.0, "m/s", Some(back.1), from_velocity),
-        measure("advancing-way-m-per-s", way[0], "m/s", None, from_way),
-        measure("receding-way-m-per-s", way[1], "m/s", None, from_way),
+        measure("advancing-way-m-per-s", speeds[0], "m/s", None, from_positions),
+        measure("receding-way-m-per-s", speeds[1], "m/s", None, from_positions),
         measure("advancing-capillary-number", capillary(front.0), "", Some(capillary(front.1)), over),
         measure("receding-capillary-number", -capillary(back.0), "", Some(capillary(back.1)), over),
     ]);

@@ -1,6 +1,6 @@
 //! A free drop that oscillates between two ellipses (B3 of the benchmarks).
 //!
-//! The shape is that of the ellipse with the second moments of the wetting particles, which needs no contour.
+//! The shape is represented by the ellipse with the second moments of the wetting particles, which needs no contour.
 
 use std::f64::consts::{PI, TAU};
 
@@ -46,7 +46,7 @@ impl OscillatingDrop {
         (Complex::new(1.0, 0.0) - bessel_product(N, z) * (2.0 * N)) * self.frequency().powi(2)
     }
 
-    /// Elongation at `time` (s) over that at time zero, from rest: the elliptic mode and the vorticity that spreads.
+    /// Elongation at `time` (s) relative to that at time zero, from rest: the elliptic mode and the diffusion of vorticity.
     ///
     /// Its Laplace transform is 1/(s + w0² (1 - 2 n I_n K_n)/s).
     pub(crate) fn elongation(&self, time: f64) -> f64 {
@@ -54,9 +54,9 @@ impl OscillatingDrop {
     }
 }
 
-/// I_n(z) K_n(z) of a whole `order`, Re z > 0, by the trapezoidal rule on their integrals, which converges exponentially.
+/// I_n(z) K_n(z) of integer `order`, Re z > 0, by the trapezoidal rule on their integrals, which converges exponentially.
 fn bessel_product(order: f64, z: Complex<f64>) -> Complex<f64> {
-    // Beyond 60 nodes per radian of |z| nothing changes; K needs cosh t up to 700/Re z, below t = 12 for the drops here.
+    // 60 nodes per radian of |z| are sufficient; K needs cosh t up to 700/Re z, below t = 12 for the drops here.
     let nodes = 400;
     let step = PI / nodes as f64;
     let of_i = |k: usize| {
@@ -76,16 +76,16 @@ fn bessel_product(order: f64, z: Complex<f64>) -> Complex<f64> {
     i * (0..=points).map(of_k).sum::<Complex<f64>>() * step
 }
 
-/// The fit begins after this part of the inviscid period: until then the vorticity of the start spreads.
+/// The fit excludes this initial fraction of the inviscid period, while the initial vorticity diffuses.
 const LEFT_OUT: f64 = 0.25;
 
-/// `elongation` along x and `deformation` along its own axes.
+/// `elongation` along x and `deformation` along the principal axes.
 pub(super) fn columns(flow: &Flow, _: &Observation) -> Columns {
     let moments = Moments::of_wetting_phase(flow);
     vec![("elongation", moments.elongation()), ("deformation", moments.deformation())]
 }
 
-/// The drop at rest as the linear theory takes it; fluids that differ have no closed form here.
+/// The drop at rest for the linear theory; there is no closed form here for fluids with different properties.
 pub(super) fn drop(s: &Subject) -> OscillatingDrop {
     let m = &s.flow.config.method;
     OscillatingDrop {
@@ -96,10 +96,10 @@ pub(super) fn drop(s: &Subject) -> OscillatingDrop {
     }
 }
 
-/// Period and decay, and both over those of the linear viscous solution.
+/// Period and decay rate, absolute and relative to those of the linear viscous solution.
 ///
-/// The solution is fitted at the same times in the same way: beside its mode it has a part that decays as a power of time, by
-/// which the half periods of a viscous drop differ by some percent.
+/// The solution is fitted in the same way at the same times: besides the elliptic mode it has a part with algebraic decay, which changes the half periods of
+/// a viscous drop by some percent.
 fn measures(s: &Subject) -> Vec<Measure> {
     let (m, drop) = (&s.flow.config.method, drop(s));
     let inviscid = drop.frequency();
@@ -135,17 +135,17 @@ mod tests {
     struct Damped {
         /// Angular frequency in 1/s.
         frequency: f64,
-        /// Rate of decay in 1/s.
+        /// Decay rate in 1/s.
         decay: f64,
     }
 
     impl OscillatingDrop {
-        /// The elliptic mode, n = 2: the root s of s² + w0² (1 - 2 n I_n(q R) K_n(q R)) = 0 with q² = s/nu and
-        /// w0² = sigma n (n² - 1)/(2 rho R³); nothing where the drop creeps back without oscillating.
+        /// The elliptic mode, n = 2: the root s of s² + w0² (1 - 2 n I_n(q R) K_n(q R)) = 0 with q² = s/nu and w0² = sigma n (n² - 1)/(2 rho R³); `None` if
+        /// the drop is overdamped.
         fn elliptic_mode(&self) -> Option<Damped> {
             let rigid = self.frequency().powi(2);
             let excess = |s: Complex<f64>| s * s + self.stiffness(s);
-            // The secant method from a tenth of critical damping; most drops that oscillate are near it.
+            // The secant method from a tenth of critical damping, near most underdamped drops.
             let mut old = Complex::new(-0.05, 1.0) * rigid.sqrt();
             let mut s = Complex::new(-0.1, 0.9) * rigid.sqrt();
             let mut at_old = excess(old);
@@ -182,7 +182,7 @@ mod tests {
         let mode = drop.elliptic_mode().expect("an oscillation");
         for time in [0.5, 2.0, 4.0] {
             let wave = (-mode.decay * time).exp() * (mode.frequency * time).cos();
-            // What is not in the mode is of the order of the boundary layer, sqrt(nu w)/(w R) = 0.024.
+            // The remainder beyond the mode is of the order of the boundary layer, sqrt(nu w)/(w R) = 0.024.
             assert!((drop.elongation(time) - wave).abs() < 0.03, "{time}: {} {wave}", drop.elongation(time));
         }
         assert!((drop.elongation(1e-4) - 1.0).abs() < 1e-6);

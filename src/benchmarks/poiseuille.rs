@@ -1,4 +1,4 @@
-//! Error of the velocity against plane Poiseuille flow (A1 of the benchmarks), with its start-up, and the slip length found.
+//! Velocity error with respect to plane Poiseuille flow (A1 of the benchmarks), including its start-up, and the measured slip length.
 
 use std::f64::consts::PI;
 
@@ -21,26 +21,26 @@ pub(crate) struct Poiseuille {
     pub(crate) viscosity: f64,
     /// Density in kg/m³, for the start-up.
     pub(crate) density: f64,
-    /// Distance of the plates H in m.
+    /// Distance between the plates H in m.
     pub(crate) height: f64,
     /// Navier's slip length b of the plates in m, at least 0.
     pub(crate) slip_length: f64,
 }
 
-/// Terms of the start-up series: the last is below 1e-7 of the first, at time zero.
+/// Terms of the start-up series: at time zero the last one is below 1e-7 of the first.
 const SERIES_TERMS: usize = 200;
 
 impl Poiseuille {
-    /// Final velocity in m/s at `y` (m): G (y (H - y) + H b)/(2 mu).
+    /// Steady velocity in m/s at `y` (m): G (y (H - y) + H b)/(2 mu).
     pub(crate) fn steady(&self, y: f64) -> f64 {
         let height = self.height;
         self.force * (y * (height - y) + height * self.slip_length) / (2.0 * self.viscosity)
     }
 
-    /// Velocity in m/s at `y` (m) and `time` (s) after the force sets in on fluid at rest.
+    /// Velocity in m/s at `y` (m) and `time` (s) after the force is applied to fluid at rest.
     ///
-    /// The steady flow less Σ c cos(k (y − H/2)) exp(−ν k² t), where b k tan(kH/2) = 1, as Navier's condition asks for, and
-    /// c = (G/(μ k²)) (2 sin(kH/2)/k)/(H/2 + sin(kH)/(2k)).
+    /// The steady flow minus Σ c cos(k (y − H/2)) exp(−ν k² t), where b k tan(kH/2) = 1 by Navier's condition, and c = (G/(μ k²)) (2 sin(kH/2)/k)/(H/2 +
+    /// sin(kH)/(2k)).
     pub(crate) fn at(&self, y: f64, time: f64) -> f64 {
         let (height, nu) = (self.height, self.viscosity / self.density);
         let term = |n: usize| {
@@ -61,7 +61,7 @@ impl Poiseuille {
     }
 }
 
-/// The force per volume in N/m³ that drives the flow, and whether it does so from time zero on.
+/// The driving force per volume in N/m³, and whether it acts from time zero on.
 fn force(s: &Subject) -> (f64, bool) {
     let (flow, size) = (s.flow, s.flow.config.domain.bounds.size());
     let fluid = flow.config.method.wetting_fluid;
@@ -129,7 +129,7 @@ mod tests {
         assert!((peak - 2.0 * 0.04 / 1.0).abs() < 1e-15);
         assert!(flow.at(0.2, 0.0).abs() < 1e-5 * peak && flow.at(0.07, 0.0).abs() < 1e-5 * peak);
         assert!((flow.at(0.13, 50.0) - flow.steady(0.13)).abs() < 1e-15);
-        // Early on the middle has not felt the plates: u = G t/rho.
+        // Initially the middle is not affected by the plates: u = G t/rho.
         assert!((flow.at(0.2, 1e-3) / (2.0 * 1e-3 / 3.0) - 1.0).abs() < 1e-3);
     }
 

@@ -1,4 +1,4 @@
-//! A rising bubble, the wetting phase (B6 of the benchmarks; Hysing et al. 2009).
+//! A rising bubble of the wetting phase (B6 of the benchmarks; Hysing et al. 2009).
 
 use std::f64::consts::PI;
 
@@ -15,17 +15,17 @@ use crate::sph::particles::Phase;
 /// Columns and measures of its table `[sph.measure.rising-bubble]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
-/// Height of the center, mean speed against gravity, and circularity.
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
+/// Height of the center, mean rise velocity, and circularity.
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let center = Moments::of_wetting_phase(flow).center;
     vec![
         ("bubble_center_m", center.dot(&up(flow))),
         ("bubble_speed_m_per_s", speed(flow)),
-        ("bubble_circularity", circularity(&seen.interface)),
+        ("bubble_circularity", circularity(&observation.interface)),
     ]
 }
 
-/// Unit vector against gravity; along y without gravity.
+/// Unit vector opposite to gravity; along y without gravity.
 fn up(flow: &Flow) -> Vec2 {
     (-flow.config.method.gravity).try_normalize(0.0).unwrap_or_else(Vec2::y)
 }
@@ -36,19 +36,19 @@ fn speed(flow: &Flow) -> f64 {
     inside.iter().sum::<Vec2>().dot(&up(flow)) / inside.len() as f64
 }
 
-/// Circumference of the circle with the area of the largest closed contour over the length of that contour.
+/// Perimeter of the circle with the area of the largest closed contour over the length of that contour.
 fn circularity(interface: &[Polyline]) -> f64 {
     let closed = interface.iter().filter(|line| line.closed);
     let largest = closed.max_by(|a, b| a.signed_area().abs().total_cmp(&b.signed_area().abs()));
     largest.map_or(f64::NAN, |line| 2.0 * (PI * line.signed_area().abs()).sqrt() / line.length())
 }
 
-/// The largest (`sign` = 1) or smallest (−1) value of a column, between records.
+/// The maximum (`sign` = 1) or minimum (−1) of a column, interpolated between records.
 fn turn(series: &Series, column: &str, sign: f64) -> Extremum {
     let (times, values) = pairs(series, column);
     let known = values.iter().enumerate().filter(|(_, value)| value.is_finite());
     let row = known.max_by(|a, b| (sign * a.1).total_cmp(&(sign * b.1))).map(|(row, _)| row);
-    // No record has a value: there is no such row either.
+    // Without any value there is no such row either.
     extremum(&times, &values, row.unwrap_or(values.len()))
 }
 

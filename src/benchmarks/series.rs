@@ -1,4 +1,4 @@
-//! What benchmarks read from the time series: pairs of columns, means over the last records, extrema between records.
+//! Evaluation of the time series for benchmarks: pairs of columns, means over the last records, extrema between records.
 
 use crate::solver::Series;
 
@@ -7,20 +7,20 @@ pub(crate) fn pairs(series: &Series, column: &str) -> (Vec<f64>, Vec<f64>) {
     series.column("time_s").zip(series.column(column)).unzip()
 }
 
-/// A largest or smallest value between records.
+/// A maximum or minimum, interpolated between records.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extremum {
     /// Time in s.
     pub(crate) time: f64,
     /// The value, in the unit of the column.
     pub(crate) value: f64,
-    /// Standard uncertainty of the value: what the parabola changes.
+    /// Standard uncertainty of the value: the correction by the parabola.
     pub(crate) value_error: f64,
-    /// Standard uncertainty of the time in s: half of the interval of the records over √3.
+    /// Standard uncertainty of the time in s: half of the record interval over √3.
     pub(crate) time_error: f64,
 }
 
-/// The vertex of the parabola through the record `row` and its neighbors, where `row` is the largest or smallest of the three; else the record.
+/// The vertex of the parabola through the record `row` and its neighbors, if `row` is the largest or smallest of the three; else the record itself.
 pub(crate) fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
     let at = |row: usize| Some((*times.get(row)?, *values.get(row)?));
     let (time, value) = at(row).unwrap_or((f64::NAN, f64::NAN));
@@ -41,10 +41,10 @@ pub(crate) fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
     vertex().unwrap_or(Extremum { time, value, value_error: 0.0, time_error: f64::NAN })
 }
 
-/// The last part of the time that means are taken over.
+/// Last fraction of the time over which means are taken.
 pub(crate) const LAST_QUARTER: f64 = 0.25;
 
-/// Mean and standard deviation of a column over the last part of the records, where it has values.
+/// Mean and standard deviation of a column over the last part of the records, omitting missing values.
 pub(crate) fn last_mean(series: &Series, column: &str) -> (f64, f64) {
     let values: Vec<f64> = last(series, column, LAST_QUARTER).into_iter().map(|(_, value)| value).collect();
     let count = values.len() as f64;
@@ -52,7 +52,7 @@ pub(crate) fn last_mean(series: &Series, column: &str) -> (f64, f64) {
     (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt())
 }
 
-/// Times in s and values of a column over the last `part` of the time.
+/// Times in s and values of a column over the last fraction `part` of the time.
 pub(crate) fn last(series: &Series, column: &str, part: f64) -> Vec<(f64, f64)> {
     let end = series.column("time_s").last().unwrap_or(f64::NAN);
     let all = series.column("time_s").zip(series.column(column));

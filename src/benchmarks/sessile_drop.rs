@@ -1,9 +1,9 @@
-//! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks). Half a drop beside a symmetry side counts with its
-//! image.
+//! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks). Half a drop beside a symmetry side is completed by its
+//! mirror image.
 //!
-//! Exact under gravity: the Young-Laplace equation of the plane, solved by Runge-Kutta steps from the apex. With the arc length s, the
-//! inclination phi and the depth z below the apex: dx/ds = cos phi, dz/ds = sin phi, dphi/ds = kappa_0 + z/l_c², where
-//! l_c² = sigma/(d_rho g). The unknown apex curvature kappa_0 follows from the area of the drop by bisection.
+//! Exact under gravity: the two-dimensional Young-Laplace equation, solved by Runge-Kutta steps from the apex. With the arc length s, the inclination phi and
+//! the depth z below the apex: dx/ds = cos phi, dz/ds = sin phi, dphi/ds = kappa_0 + z/l_c², where l_c² = sigma/(d_rho g). The unknown apex curvature kappa_0
+//! follows from the area of the drop by bisection.
 
 use crate::analysis::roots::bisect;
 use crate::interface::cap::cap;
@@ -28,22 +28,22 @@ pub(crate) struct ProfilePoint {
     pub(crate) x: f64,
     /// Depth below the apex in m.
     pub(crate) z: f64,
-    /// Area in m² between the apex and here, on one side.
+    /// Area in m² between the apex and this point, on one side.
     pub(crate) area: f64,
 }
 
-/// Steps turn by no more than this (rad), and are no longer than this part of the capillary length: the error of the
-/// fourth-order rule is then below 1e-8 of the sizes.
+/// Upper bound of the rotation (rad) per step and of its length over the capillary length: the error of the fourth-order rule is then below 1e-8 of the
+/// sizes.
 const LARGEST_TURN: f64 = 0.01;
-/// Steps after which a profile that has not reached its inclination is given up.
+/// Maximum number of steps to reach the inclination.
 const MOST_STEPS: usize = 200_000;
 
 /// The profile from the apex to the inclination `last` (rad).
 ///
-/// `apex_curvature` in 1/m, above 0; `capillary_length` in m. Empty where the inclination is not reached.
+/// `apex_curvature` in 1/m, above 0; `capillary_length` in m. Empty if the inclination is not reached.
 pub(crate) fn profile(apex_curvature: f64, capillary_length: f64, last: f64) -> Vec<ProfilePoint> {
     let stiffness = capillary_length.powi(-2);
-    // State: x, z, inclination and the area, of which x dz is added.
+    // State: x, z, inclination and the area, the integral of x dz.
     let slope = |[x, z, phi, _]: [f64; 4]| [phi.cos(), phi.sin(), apex_curvature + stiffness * z, x * phi.sin()];
     let add = |y: [f64; 4], k: [f64; 4], by: f64| [0, 1, 2, 3].map(|i| y[i] + by * k[i]);
     let step = |y: [f64; 4], ds: f64| {
@@ -88,9 +88,9 @@ fn drop_from(apex_curvature: f64, capillary_length: f64, angle: f64) -> Option<(
     Some((SessileDrop { base: 2.0 * end.x, height: end.z }, 2.0 * end.area))
 }
 
-/// The drop of `area` (m²) with the contact `angle` (rad) under gravity of the `capillary_length` (m).
+/// The drop of `area` (m²) with the contact `angle` (rad) under gravity, for a `capillary_length` in m.
 pub(crate) fn sessile_drop(area: f64, capillary_length: f64, angle: f64) -> Option<SessileDrop> {
-    // Without gravity the cap's curvature; gravity flattens the apex, for puddles by many orders of magnitude.
+    // Search starts from the curvature of the cap without gravity; gravity flattens the apex, for puddles by many orders of magnitude.
     let cap = ((angle - angle.sin() * angle.cos()) / area).sqrt();
     let excess = |logarithm: f64| {
         drop_from(cap * logarithm.exp(), capillary_length, angle).map_or(f64::NAN, |(_, found)| found - area)
@@ -99,10 +99,10 @@ pub(crate) fn sessile_drop(area: f64, capillary_length: f64, angle: f64) -> Opti
     drop_from(cap * logarithm.exp(), capillary_length, angle).map(|(drop, _)| drop)
 }
 
-/// A wall is level where its normal points up to this cosine.
+/// A wall is horizontal if the cosine between its normal and the vertical exceeds this.
 const LEVEL: f64 = 1.0 - 1e-6;
 
-/// Flatter menisci, of some degrees, count as this flat: their end is known by the fit and not by the contour there.
+/// Lower bound of the sine for flat menisci, of a few degrees: their ends follow from the fit rather than from the contour there.
 const SMALLEST_SINE: f64 = 0.05;
 
 /// A length with its standard uncertainty at one time, in m.
@@ -112,7 +112,7 @@ struct Length {
     uncertainty: f64,
 }
 
-/// How far a drop extends, NaN where there are not two contact lines with an angle.
+/// Extent of a drop, NaN unless there are two contact lines with an angle.
 #[derive(Debug, Clone, Copy)]
 struct Extent {
     base: Length,
@@ -120,19 +120,19 @@ struct Extent {
 }
 
 impl Extent {
-    /// What is seen of it, with the image of its half beyond a symmetry side.
-    fn of(flow: &Flow, seen: &Observation) -> Self {
-        // As for the angle: the contour may lie off by so much, to one side all along. That moves both ends outward, those of a flat drop the farther.
+    /// The observed extent, including the mirror image beyond a symmetry side.
+    fn of(flow: &Flow, observation: &Observation) -> Self {
+        // As for the angle: the contour may be displaced by this much, uniformly. Both ends then move outward, farther for a flat drop.
         let off = ACCURACY * flow.config.method.kernel.h;
-        let lines: Vec<ContactLine> = seen.lines_with_angle().copied().chain(image(flow, seen)).collect();
-        // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
+        let lines: Vec<ContactLine> = observation.lines_with_angle().copied().chain(image(flow, observation)).collect();
+        // Contours continue across periodic sides, so the distance of the two ends of a drop needs no minimum image.
         let [a, b] = &lines[..] else {
             let none = Length { value: f64::NAN, uncertainty: f64::NAN };
             return Self { base: none, height: none };
         };
         let (from, along) = (a.position, b.position - a.position);
         let distance = |x: &Vec2| along.perp(&(x - from)).abs() / along.norm();
-        let points = seen.interface.iter().flat_map(|line| &line.points);
+        let points = observation.interface.iter().flat_map(|line| &line.points);
         let along_wall = |line: &ContactLine| off / line.angle_deg.to_radians().sin().max(SMALLEST_SINE);
         Self {
             base: Length { value: along.norm(), uncertainty: along_wall(a) + along_wall(b) },
@@ -141,10 +141,10 @@ impl Extent {
     }
 }
 
-/// The symmetry side that the interface of a half drop ends at: its only contact line has an image there.
-fn mirror(flow: &Flow, seen: &Observation) -> Option<Mirror> {
-    let [interface] = &seen.interface[..] else { return None };
-    if seen.lines_with_angle().count() != 1 {
+/// The symmetry side at which the interface of a half drop ends: its only contact line has a mirror image there.
+fn mirror(flow: &Flow, observation: &Observation) -> Option<Mirror> {
+    let [interface] = &observation.interface[..] else { return None };
+    if observation.lines_with_angle().count() != 1 {
         return None;
     }
     let ends = [*interface.points.first()?, *interface.points.last()?];
@@ -155,22 +155,22 @@ fn mirror(flow: &Flow, seen: &Observation) -> Option<Mirror> {
     (distance(&nearest) < flow.config.method.kernel.support()).then_some(nearest)
 }
 
-/// The image of the contact line of a half drop.
-fn image(flow: &Flow, seen: &Observation) -> Option<ContactLine> {
-    let mirror = mirror(flow, seen)?;
-    let mut line = *seen.lines_with_angle().next()?;
+/// The mirror image of the contact line of a half drop.
+fn image(flow: &Flow, observation: &Observation) -> Option<ContactLine> {
+    let mirror = mirror(flow, observation)?;
+    let mut line = *observation.lines_with_angle().next()?;
     line.position[mirror.axis] = 2.0 * mirror.at - line.position[mirror.axis];
     Some(line)
 }
 
-/// Areas in m² of wetting and non-wetting phase; of a half drop beside a symmetry side of the whole one.
+/// Areas in m² of wetting and non-wetting phase; for a half drop beside a symmetry side those of the whole one.
 fn areas(s: &Subject) -> [f64; 2] {
     let whole = if mirror(s.flow, s.seen).is_some() { 2.0 } else { 1.0 };
     [whole * s.seen.areas.wetting, whole * s.seen.areas.non_wetting]
 }
 
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
-    let Extent { base, height } = Extent::of(flow, seen);
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
+    let Extent { base, height } = Extent::of(flow, observation);
     vec![(BASE, base.value), (HEIGHT, height.value)]
 }
 
@@ -193,7 +193,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     ]
 }
 
-/// The exact drop of either phase without gravity, and what it is.
+/// The exact drop of either phase without gravity, and its description.
 fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
     let through_wetting = s.flow.config.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
@@ -207,7 +207,7 @@ fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
     (SessileDrop { base: exact.base, height: exact.height }, over)
 }
 
-/// The exact drop on a level floor under gravity, NaN on others, and what it is.
+/// The exact drop on a horizontal floor under gravity, NaN on other walls, and its description.
 fn under_gravity(s: &Subject) -> (SessileDrop, &'static str) {
     let m = &s.flow.config.method;
     let force = m.curvature_gradient();
@@ -225,7 +225,7 @@ mod tests {
     use super::*;
     use crate::interface::arc::Arc;
 
-    /// Height in m of the lowest point of the meniscus between plates `width` (m) apart over the level outside.
+    /// Height in m of the lowest point of the meniscus between plates `width` (m) apart above the level outside.
     fn rise_between_plates(width: f64, capillary_length: f64, angle: f64) -> Option<f64> {
         let last = std::f64::consts::FRAC_PI_2 - angle;
         let circular = 2.0 * angle.cos() / width;
@@ -270,18 +270,18 @@ mod tests {
             let side = profile(apex_curvature, length, degrees.to_radians());
             let floor = side.last().unwrap().z;
             let points: Vec<Vec2> = side.iter().rev().map(|p| Vec2::new(p.x, -p.z)).collect();
-            let mut way = 0.0;
+            let mut arc_length = 0.0;
             let mut last = points[0];
             let used = points.iter().filter(|x| {
-                way += (**x - last).norm();
+                arc_length += (**x - last).norm();
                 last = **x;
-                x.y > -0.8 * floor && way < 4.0 * length
+                x.y > -0.8 * floor && arc_length < 4.0 * length
             });
             let used: Vec<Vec2> = used.step_by(8).copied().collect();
             let arc = Arc::fit(&used, Vec2::new(0.0, -length.powi(-2)), length).unwrap();
             assert!(arc.middle.rms < 1e-4, "{degrees}: {:e}", arc.middle.rms);
-            let way = (points[0] - used[0]).norm();
-            let back = arc.walk(used[0], -way);
+            let arc_length = (points[0] - used[0]).norm();
+            let back = arc.walk(used[0], -arc_length);
             let off = arc.normal_at(points[0]).dot(&Vec2::y()) + degrees.to_radians().cos();
             assert!((back - points[0]).norm() < 0.02 * length && off.abs() < 2e-3, "{degrees}: {back:?}, {off}");
         }

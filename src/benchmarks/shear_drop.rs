@@ -1,4 +1,4 @@
-//! A free drop that is deformed by shear between two walls (B5 of the benchmarks).
+//! A free drop deformed by shear between two walls (B5 of the benchmarks).
 
 use super::moments::Moments;
 use super::oscillating_drop::{columns, drop};
@@ -8,7 +8,7 @@ use crate::sph::measures::{Group, Subject, measure};
 /// Columns and measures of its table `[sph.measure.shear-drop]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
-/// Deformation of a drop between walls that move against each other.
+/// Deformation of a drop between walls moving in opposite directions.
 fn measures(s: &Subject) -> Vec<Measure> {
     let (m, height) = (&s.flow.config.method, s.flow.config.domain.bounds.size().y);
     let [_, _, bottom, top] = s.wall_speeds;

@@ -12,38 +12,38 @@ use crate::sph::particles::Phase;
 /// Columns and measures of its table `[sph.measure.slit-filling]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
-/// A slit with a wetting liquid behind its meniscus and another fluid before it.
+/// A slit with a wetting liquid behind its meniscus and another fluid ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SlitFilling {
-    /// Distance of the plates w in m.
+    /// Distance between the plates w in m.
     pub(crate) width: f64,
     /// Length of the slit L in m.
     pub(crate) length: f64,
-    /// What drives in Pa: capillary pressure 2 σ cos θ/w and the pressure of the entry less that of the exit.
+    /// Driving pressure in Pa: capillary pressure 2 σ cos θ/w plus the pressure of the entry minus that of the exit.
     pub(crate) pressure: f64,
     /// Densities of liquid and other fluid in kg/m³.
     pub(crate) densities: [f64; 2],
     /// Dynamic viscosities of liquid and other fluid in Pa s.
     pub(crate) viscosities: [f64; 2],
-    /// Body force per mass along the slit inwards in m/s².
+    /// Body force per mass along the slit, positive inwards, in m/s².
     pub(crate) gravity: f64,
 }
 
-/// Steps between two times asked for: second order, so that the error is some 1e-8 of the length.
+/// Steps between two requested times: second order, with an error of some 1e-8 of the length.
 const STEPS: usize = 4000;
 
 impl SlitFilling {
-    /// Speed in m/s that the meniscus tends to at the filled length `x` (m), and the rate in 1/s at which it does.
+    /// Terminal speed in m/s of the meniscus at the filled length `x` (m), and the relaxation rate in 1/s.
     ///
-    /// (ρ₁ x + ρ₂ (L − x)) dv/dt = p + (ρ₁ x + ρ₂ (L − x)) g − 12 (μ₁ x + μ₂ (L − x)) v/w²: the plug flow of both columns with the
-    /// friction of a parabola, between two sections of given pressure.
+    /// (ρ₁ x + ρ₂ (L − x)) dv/dt = p + (ρ₁ x + ρ₂ (L − x)) g − 12 (μ₁ x + μ₂ (L − x)) v/w²: plug flow of both columns with the friction of a parabolic
+    /// profile, between two sections of given pressure.
     fn tends_to(&self, x: f64) -> (f64, f64) {
         let along = |[a, b]: [f64; 2]| a * x + b * (self.length - x);
         let (mass, friction) = (along(self.densities), 12.0 * along(self.viscosities) / self.width.powi(2));
         ((self.pressure + mass * self.gravity) / friction, friction / mass)
     }
 
-    /// Filled lengths in m at rising `times` (s), from rest at `start` (m) at time zero.
+    /// Filled lengths in m at ascending `times` (s), from rest at `start` (m) at time zero.
     pub(crate) fn lengths(&self, start: f64, times: &[f64]) -> Vec<f64> {
         let (mut t, mut x, mut v) = (0.0, start, 0.0);
         times
@@ -59,10 +59,10 @@ impl SlitFilling {
             .collect()
     }
 
-    /// One step of the exponential midpoint method: exact for constant coefficients, and stable however fast the friction acts.
+    /// One step of the exponential midpoint method: exact for constant coefficients, and stable for any friction.
     fn step(&self, x: f64, v: f64, dt: f64) -> (f64, f64) {
         let by = |(speed, rate): (f64, f64), dt: f64| {
-            // (1 − exp(−rate dt))/rate, the time over which the first speed is lost.
+            // (1 − exp(−rate dt))/rate, the time integral of the decay of the initial speed.
             let lost = -(-rate * dt).exp_m1() / rate;
             (x + speed * dt + (v - speed) * lost, v - (v - speed) * rate * lost)
         };
@@ -71,7 +71,7 @@ impl SlitFilling {
     }
 }
 
-/// The side that the wetting phase comes in through: the first open one that it stands at or that it enters through.
+/// The side through which the wetting phase enters: the first open one that it touches or is injected through.
 pub(super) fn entry(flow: &Flow) -> Option<&OpenSide> {
     flow.config.open.sides.iter().find(|side| side.main == Phase::Wetting)
 }
@@ -82,12 +82,12 @@ fn across(flow: &Flow, side: &OpenSide) -> f64 {
 }
 
 /// `filled_length_m`: area of the wetting phase over the width.
-fn columns(flow: &Flow, seen: &Observation) -> Columns {
-    let length = entry(flow).map_or(f64::NAN, |side| seen.areas.wetting / across(flow, side));
+fn columns(flow: &Flow, observation: &Observation) -> Columns {
+    let length = entry(flow).map_or(f64::NAN, |side| observation.areas.wetting / across(flow, side));
     vec![("filled_length_m", length)]
 }
 
-/// The exact law of the slit; none where the sides are not those of a slit.
+/// The exact solution for the slit; `None` if the sides are not those of a slit.
 fn law(s: &Subject) -> Option<SlitFilling> {
     let (flow, m) = (s.flow, &s.flow.config.method);
     let side = entry(flow)?;
@@ -110,24 +110,24 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let (times, lengths) = pairs(s.series, "filled_length_m");
     let Some((&first, &last)) = lengths.first().zip(lengths.last()) else { return vec![] };
     let exact = law.lengths(first, &times);
-    let way = exact.last().map_or(f64::NAN, |end| end - first);
+    let advance = exact.last().map_or(f64::NAN, |end| end - first);
     let worst = lengths.iter().zip(&exact).map(|(found, exact)| (found - exact).abs()).fold(0.0, f64::max);
     let method = "area of the wetting phase over the width; exact: both columns with the friction of a parabola and the static angle";
     vec![
         measure("filled-length-m", last, "m", None, "area of the wetting phase over the width, at the end"),
         measure(
             "filling-ratio",
-            (last - first) / way,
+            (last - first) / advance,
             "",
             None,
-            &format!("way of the meniscus over the exact one; {method}"),
+            &format!("advance of the meniscus over the exact one; {method}"),
         ),
         measure(
             "filling-error",
-            worst / way,
+            worst / advance,
             "",
             None,
-            &format!("largest difference over all records, over the whole way; {method}"),
+            &format!("largest difference over all records, over the whole advance; {method}"),
         ),
     ]
 }

@@ -1,4 +1,4 @@
-//! The exponent of a drop that spreads on a wall (C13 of the benchmarks; Tanner's law in the plane: 1/7).
+//! The exponent of a drop spreading on a wall (C13 of the benchmarks; Tanner's law in two dimensions: 1/7).
 
 use crate::solver::Measure;
 use crate::sph::flow::Flow;
@@ -8,10 +8,10 @@ use crate::sph::observe::Observation;
 /// Columns and measures of its table `[sph.measure.spreading]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
-/// Distance in m of the two contact points.
-fn columns(_: &Flow, seen: &Observation) -> Columns {
-    let lines: Vec<_> = seen.lines_with_angle().collect();
-    // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
+/// Distance between the two contact points in m.
+fn columns(_: &Flow, observation: &Observation) -> Columns {
+    let lines: Vec<_> = observation.lines_with_angle().collect();
+    // Contours continue across periodic sides, so the distance of the two ends of a drop needs no minimum image.
     let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
     vec![("base_m", base)]
 }
@@ -21,7 +21,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let all = s.series.column("time_s").zip(s.series.column("base_m"));
     let decade: Vec<(f64, f64)> =
         all.filter(|(t, base)| *t >= 0.1 * end && *base > 0.0).map(|(t, base)| (t.ln(), base.ln())).collect();
-    // By trapezoids in ln t, so that the many records at late times do not outweigh the few at early ones.
+    // Trapezoidal weights in ln t, so that the many late records do not outweigh the few early ones.
     let weights: Vec<f64> = (0..decade.len())
         .map(|i| {
             let before = decade[i.saturating_sub(1)].0;

@@ -8,7 +8,7 @@ use crate::sph::measures::{Group, Subject, measure};
 /// Measures of its table `[sph.measure.taylor-green]`.
 pub(crate) const GROUP: Group = Group::of(measures);
 
-/// Speed of a Taylor-Green vortex of period `length` (m) over its initial speed: exp(-8 pi² nu t/L²).
+/// Speed of a Taylor-Green vortex of period `length` (m) relative to its initial speed: exp(-8 pi² nu t/L²).
 pub(crate) fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
     (-8.0 * PI * PI * kinematic_viscosity * time / (length * length)).exp()
 }

@@ -1,4 +1,4 @@
-//! A meniscus that rests where the pressure in a throat is largest (C7 of the benchmarks); between two discs compared with the exact one.
+//! A static meniscus at the largest capillary pressure in a throat (C7 of the benchmarks); between two discs compared with the exact solution.
 
 use std::f64::consts::PI;
 
@@ -11,8 +11,8 @@ pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Entry curvature p_c*/sigma in 1/m of the throat between two discs with `radii` (m) and centers `distance` (m) apart.
 ///
-/// 1/r* with sqrt(R1² + r² + 2 R1 r cos theta) + sqrt(R2² + r² + 2 R2 r cos theta) = L, `angle` (rad) below 90 degrees
-/// or not far above. Nothing where the discs overlap or no such arc exists.
+/// 1/r* with sqrt(R1² + r² + 2 R1 r cos theta) + sqrt(R2² + r² + 2 R2 r cos theta) = L, `angle` (rad) below 90 degrees or slightly above. `None` if the discs
+/// overlap or there is no such arc.
 pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Option<f64> {
     let reach = |r: f64| radii.iter().map(|big| (big * big + r * r + 2.0 * big * r * angle.cos()).sqrt()).sum::<f64>();
     let r = bisect(|r| reach(r) - distance, 1e-12 * distance, 10.0 * distance)?;
@@ -31,7 +31,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     );
     let ([a, b], Some(wetting)) = (s.discs, s.flow.config.method.wetting) else { return vec![pressure] };
     let distance = (b.center - a.center).norm();
-    // The phase of the larger pressure is the one that invades; the angle is that through the other one.
+    // The phase at the larger pressure is the invading one; the angle is that through the other one.
     let angle = wetting.static_angle();
     let depth = s.flow.config.method.plates.map(|plates| plates.depth);
     let in_plane = depth.map_or(found.value, |depth| depth.plane(found.value / tension));

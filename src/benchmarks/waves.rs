@@ -1,14 +1,14 @@
 //! Linear viscous capillary modes of two fluids of equal density and viscosity: plane waves and free drops.
 //!
-//! With equal fluids the interface is a sheet of force in one fluid, and its own motion follows in closed form from the Green's
-//! function of the unsteady Stokes equation. Leaves out gravity, walls and fluids that differ (for those: Prosperetti 1981). The Laplace
-//! transforms stand in `capillary_wave` and `oscillating_drop`; here is the way back from them.
+//! For equal fluids the interface is a sheet of force in a single fluid, and its motion follows in closed form from the Green's function of the unsteady
+//! Stokes equation. Gravity, walls and different fluids are not included (for these see Prosperetti 1981). The Laplace transforms are in `capillary_wave` and
+//! `oscillating_drop`; here is their inverse.
 
 use std::f64::consts::PI;
 
 use nalgebra::Complex;
 
-/// Nodes of the inverse Laplace transform: enough to enclose the poles over three periods, with nine digits left by rounding.
+/// Nodes of the inverse Laplace transform: enough to enclose the poles over three periods, with nine digits unaffected by rounding.
 const NODES: usize = 40;
 
 /// A function of time from its Laplace transform, at `time` (s) above 0 (fixed Talbot contour, Abate & Valkó 2004).

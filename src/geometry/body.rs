@@ -1,7 +1,7 @@
-//! Closed solid bodies: each written shape becomes one or two, with oriented surface curves and an inside test.
+//! Closed solid bodies: each specified shape becomes one or two, with oriented surface curves and an inside test.
 //!
-//! The inside test is parry's where parry has the shape (ball, cuboid, capsule, half-space, oriented polyline); the cosine
-//! wall is told by its own curves. Parry's vectors (glam) appear in this file and in `boundary` only.
+//! The inside test is parry's for the shapes that parry has (ball, cuboid, capsule, half-space, oriented polyline); for the cosine wall it uses the wall's
+//! own curves. Parry's vectors (glam) appear in this file and in `boundary` only.
 
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::shape::{Polyline, PolylineFlags, SharedShape};
@@ -15,17 +15,17 @@ use crate::geometry::spec::{
 use crate::geometry::winding::Winding;
 use crate::math::{Bounds, Vec2, perpendicular};
 
-/// Straight walls without end are built this many box diagonals long: far beyond any query, and rounding stays small.
+/// Infinite straight walls are built this many box diagonals long: far beyond any query, with small rounding errors.
 const REACH: f64 = 64.0;
 
-/// How a body tells in from out.
+/// Inside test of a body.
 #[derive(Clone)]
 enum Inside {
-    /// A shape of parry at a place.
+    /// A shape of parry with its position and rotation.
     Parry(Pose, SharedShape),
-    /// The side of the nearest of these surface curves; right for smooth chains only.
+    /// The side of the nearest of these surface curves; valid for smooth chains only.
     Chain(CurveSet),
-    /// The points that closed rings wind around.
+    /// Points of nonzero winding number with respect to closed rings.
     Wound(Winding),
     /// The part of another body within a box.
     Within(Box<Inside>, Bounds),
@@ -34,23 +34,23 @@ enum Inside {
 /// A closed solid.
 #[derive(Clone)]
 pub(crate) struct Body {
-    /// Index of the written shape it comes from.
+    /// Index of the specified shape.
     pub(crate) shape: u32,
     /// Its surface, solid on the left.
     pub(crate) curves: CurveSet,
-    /// A box around the surface, for culling; a body without end has a box without end.
+    /// A box around the surface, for culling; infinite for an unbounded body.
     pub(crate) bounds: Bounds,
     inside: Inside,
 }
 
-/// Where a point lies relative to a body.
+/// Location of a point relative to a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
-    /// Deeper than the tolerance.
+    /// Inside, deeper than the tolerance.
     In,
-    /// Farther than the tolerance.
+    /// Outside, farther than the tolerance.
     Out,
-    /// On the surface, whose outward normal is given.
+    /// On the surface, with its outward normal.
     On(Vec2),
 }
 
@@ -67,12 +67,12 @@ fn everywhere() -> Bounds {
 }
 
 impl Body {
-    fn finite(shape: u32, curves: Vec<Curve>, place: Pose, parry: SharedShape) -> Self {
+    fn finite(shape: u32, curves: Vec<Curve>, pose: Pose, parry: SharedShape) -> Self {
         let curves = CurveSet::from(curves);
-        Self { shape, bounds: curves.bounds(), curves, inside: Inside::Parry(place, parry) }
+        Self { shape, bounds: curves.bounds(), curves, inside: Inside::Parry(pose, parry) }
     }
 
-    /// The bodies of a written shape, number `shape` of its list. The box tells how far endless walls must reach.
+    /// The bodies of the specified shape number `shape`. The box determines the length of infinite walls.
     pub(crate) fn of(spec: &ShapeSpec, shape: u32, domain: Bounds) -> Vec<Self> {
         match spec {
             ShapeSpec::HalfPlane(HalfPlane { point, rotation_deg }) => {
@@ -94,7 +94,7 @@ impl Body {
             }
             ShapeSpec::ThroatDiscs(throat) => Self::throat_discs(shape, throat),
             ShapeSpec::ThroatCosine(throat) => Self::throat_cosine(shape, throat, domain),
-            // Files are read with generators expanded; what is wrong with one is told by its check.
+            // Files are read with generators expanded; errors in a generator are reported by its check.
             ShapeSpec::RandomPack(_) | ShapeSpec::Array(_) => {
                 let plain = spec.expanded().unwrap_or_default();
                 plain.iter().flat_map(|spec| Self::of(spec, shape, domain)).collect()
@@ -102,7 +102,7 @@ impl Body {
         }
     }
 
-    /// The half-plane below the line through `point`, turned by `angle` in rad.
+    /// The half-plane below the line through `point`, rotated by `angle` in rad.
     pub(crate) fn half_plane(shape: u32, point: Vec2, angle: f64, domain: Bounds) -> Self {
         let along = unit(angle);
         let middle = point + along * along.dot(&(domain.center() - point));
@@ -124,7 +124,7 @@ impl Body {
         Self::finite(shape, ring(&corners), pose(angle, center), SharedShape::cuboid(half.x, half.y))
     }
 
-    /// A box as a body.
+    /// A rectangular body.
     pub(crate) fn of_box(shape: u32, bounds: Bounds) -> Self {
         let rectangle = Rectangle { center: bounds.center().into(), size: bounds.size().into(), rotation_deg: 0.0 };
         Self::rectangle(shape, &rectangle)
@@ -194,7 +194,7 @@ impl Body {
             .collect()
     }
 
-    /// Whether the body has no end (half-planes, channel and cosine walls).
+    /// Whether the body is unbounded (half-planes, channel and cosine walls).
     pub(crate) fn is_endless(&self) -> bool {
         !self.bounds.min.x.is_finite()
     }
@@ -215,12 +215,12 @@ impl Body {
         Self { shape: self.shape, curves, bounds, inside: Inside::Within(Box::new(self.inside.clone()), bounds) }
     }
 
-    /// Distance from the surface in m, below 0 in the body; near corners of clipped bodies only its sign is exact.
+    /// Signed distance from the surface in m, below 0 in the body; near corners of clipped bodies only its sign is exact.
     pub(crate) fn signed_distance(&self, x: Vec2) -> f64 {
         self.inside.signed_distance(&self.curves, x)
     }
 
-    /// Where `x` lies, up to a tolerance in m.
+    /// Location of `x` within a tolerance in m.
     pub(crate) fn place(&self, x: Vec2, tolerance: f64) -> Place {
         if !self.bounds.grown(tolerance).contains(x) {
             return Place::Out;
@@ -242,10 +242,10 @@ impl Body {
 impl Inside {
     fn shifted(&self, by: Vec2) -> Self {
         match self {
-            Self::Parry(place, shape) => {
-                let mut place = *place;
-                place.translation += glam(by);
-                Self::Parry(place, shape.clone())
+            Self::Parry(pose, shape) => {
+                let mut pose = *pose;
+                pose.translation += glam(by);
+                Self::Parry(pose, shape.clone())
             }
             Self::Chain(curves) => Self::Chain(curves.shifted(by)),
             Self::Wound(winding) => Self::Wound(winding.shifted(by)),
@@ -255,8 +255,8 @@ impl Inside {
 
     fn signed_distance(&self, curves: &CurveSet, x: Vec2) -> f64 {
         match self {
-            Self::Parry(place, shape) => {
-                let found = shape.project_point(place, glam(x), false);
+            Self::Parry(pose, shape) => {
+                let found = shape.project_point(pose, glam(x), false);
                 let distance = (found.point - glam(x)).length();
                 let sign = if found.is_inside { -1.0 } else { 1.0 };
                 // Parry divides by zero at the center of a ball.

@@ -1,8 +1,8 @@
-//! The surface of united bodies: the parts of their curves that no other body covers, and a fast search for the nearest.
+//! The surface of united bodies: the parts of their curves that no other body covers, and a fast nearest-point search.
 //!
-//! Every curve is split where it meets another body, and a part is kept where its middle lies in no other body. Where two
-//! surfaces run together, one of them is kept if both solids lie on the same side and none if the solids touch. So depth
-//! within overlapping solids is the distance to the true surface, not the least depth over the bodies.
+//! Every curve is split at its intersections with other bodies, and a part is kept if its midpoint is outside all other bodies. Of two coincident surfaces
+//! one is kept if both solids lie on the same side, and none if the solids touch. Hence the depth within overlapping solids is the distance to the true
+//! surface, not the minimum over the bodies.
 
 use crate::geometry::body::{Body, Place};
 use crate::geometry::curve::{ClosestPoint, Curve};
@@ -16,7 +16,7 @@ const TREE_FROM: usize = 16;
 /// A piece of the surface, solid on the left.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    /// Where it runs.
+    /// Its curve.
     pub(crate) curve: Curve,
     /// Index of its shape.
     pub(crate) shape: u32,
@@ -31,7 +31,7 @@ pub(crate) struct Nearest {
     pub(crate) closest: ClosestPoint,
 }
 
-/// A set of pieces that can be searched.
+/// Pieces with a search structure.
 #[derive(Clone)]
 pub(crate) struct Boundary {
     /// The pieces.
@@ -42,30 +42,30 @@ pub(crate) struct Boundary {
     pub(crate) tree: Tree,
 }
 
-/// The parts of `curve` between its meetings with `others`.
+/// The parts of `curve` between its intersections with `others`.
 pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, tolerance: f64) -> Vec<Curve> {
     let near = curve.bounds().grown(tolerance);
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     for other in others {
         if near.overlaps(&other.bounds()) {
-            meeting_places(curve, other, tolerance, &mut places);
+            meeting_places(curve, other, tolerance, &mut parameters);
         }
     }
-    if places.is_empty() {
+    if parameters.is_empty() {
         return vec![*curve];
     }
-    places.sort_by(f64::total_cmp);
+    parameters.sort_by(f64::total_cmp);
     let shortest = tolerance / curve.length();
     if curve.is_closed() {
-        // Starting at the first meeting keeps an arc across the circle's start in one piece.
-        places.push(places[0] + 1.0);
+        // Starting at the first intersection keeps an arc across the circle's start in one piece.
+        parameters.push(parameters[0] + 1.0);
     } else {
-        places.insert(0, 0.0);
-        places.push(1.0);
+        parameters.insert(0, 0.0);
+        parameters.push(1.0);
     }
     let mut parts = Vec::new();
-    let mut from = places[0];
-    for &to in &places[1..] {
+    let mut from = parameters[0];
+    for &to in &parameters[1..] {
         if to - from > shortest {
             parts.push(curve.part(from, to));
             from = to;
@@ -74,16 +74,16 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
     parts
 }
 
-/// Whether a part with this outward normal stays in a union, seen against one other body.
-fn stays(place: Place, normal: Vec2, is_first: bool) -> bool {
-    match place {
+/// Whether a part with this outward normal remains in a union with one other body.
+fn stays(location: Place, normal: Vec2, is_first: bool) -> bool {
+    match location {
         Place::In => false,
         Place::Out => true,
         Place::On(other) => is_first && other.dot(&normal) > 0.0,
     }
 }
 
-/// Bodies that can be searched by place.
+/// Bodies with a search by position.
 struct Bodies<'a> {
     all: &'a [&'a Body],
     tree: Tree,
@@ -95,14 +95,14 @@ impl<'a> Bodies<'a> {
         Self { all, tree: Tree::over(all.iter().map(|body| body.bounds)), tolerance }
     }
 
-    /// The parts of `curve` between its meetings with the bodies; that of index `but` is left out.
+    /// The parts of `curve` between its intersections with the bodies, except that of index `but`.
     fn split(&self, curve: &Curve, but: Option<usize>) -> Vec<Curve> {
         let near = curve.bounds().grown(self.tolerance);
         let others = self.tree.near_in_order(near).into_iter().filter(|&j| Some(j) != but);
         split(curve, others.flat_map(|j| self.all[j].curves.near(near)), self.tolerance)
     }
 
-    /// Bodies that `x` may lie in or on, by index; it lies outside of all others.
+    /// Indices of the bodies that may contain `x`; it is outside all others.
     fn around(&self, x: Vec2) -> impl Iterator<Item = usize> {
         // Twice the tolerance: rounding must not hide a body whose box ends at it.
         self.tree.near(Bounds { min: x, max: x }.grown(2.0 * self.tolerance))
@@ -127,7 +127,7 @@ pub(crate) fn union(bodies: &[&Body], tolerance: f64) -> Vec<Piece> {
     pieces
 }
 
-/// The surface of the solid outside of all `pores` united with the solid `walls`.
+/// The surface of the solid outside all `pores`, united with the solid `walls`.
 pub(crate) fn complement(pores: &[&Body], walls: &[&Body], tolerance: f64) -> Vec<Piece> {
     let (all_pores, all_walls) = (Bodies::new(pores, tolerance), Bodies::new(walls, tolerance));
     let mut pieces = Vec::new();
@@ -150,7 +150,7 @@ pub(crate) fn complement(pores: &[&Body], walls: &[&Body], tolerance: f64) -> Ve
     pieces
 }
 
-/// The surface of a body without what the others cover.
+/// The surface of a body outside the others.
 pub(crate) fn difference(body: &Body, others: &[&Body], tolerance: f64) -> Vec<Curve> {
     let all = Bodies::new(others, tolerance);
     let mut curves = Vec::new();
@@ -159,7 +159,7 @@ pub(crate) fn difference(body: &Body, others: &[&Body], tolerance: f64) -> Vec<C
         let is_kept = all.around(middle).all(|j| match others[j].place(middle, tolerance) {
             Place::In => false,
             Place::Out => true,
-            // Beside it, not in it.
+            // Adjacent to it, not in it.
             Place::On(other) => other.dot(&normal) < 0.0,
         });
         curves.extend(is_kept.then_some(part));
@@ -173,7 +173,7 @@ pub(crate) fn difference(body: &Body, others: &[&Body], tolerance: f64) -> Vec<C
     curves
 }
 
-/// The surface of what two bodies both cover.
+/// The surface of the intersection of two bodies.
 pub(crate) fn intersection(one: &Body, other: &Body, tolerance: f64) -> Vec<Curve> {
     let mut curves = Vec::new();
     for (kept, by, is_first) in [(one, other, true), (other, one, false)] {
@@ -191,21 +191,21 @@ pub(crate) fn intersection(one: &Body, other: &Body, tolerance: f64) -> Vec<Curv
     curves
 }
 
-/// The part of a body within a box, the sides of the box included.
+/// The part of a body within a box, including the sides of the box.
 pub(crate) fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
     let curves = intersection(body, &Body::of_box(body.shape, bounds), tolerance);
     body.within(bounds, curves)
 }
 
 impl Boundary {
-    /// Prepares pieces for the search. Ends closer than `tolerance` (m) are joined.
+    /// Builds the search structure. Ends closer than `tolerance` (m) are joined.
     pub(crate) fn new(pieces: Vec<Piece>, tolerance: f64) -> Self {
         let tree = Tree::over(pieces.iter().map(|piece| piece.curve.bounds()));
         let corners = corners(&pieces, tolerance);
         Self { pieces, corners, tree }
     }
 
-    /// The nearest points to `x` of all pieces within `reach` (m).
+    /// The nearest points to `x` on all pieces within `reach` (m).
     pub(crate) fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
         self.tree.within(x, reach).filter_map(move |piece| {
             let closest = self.pieces.get(piece)?.curve.project(x);
@@ -213,7 +213,7 @@ impl Boundary {
         })
     }
 
-    /// The nearest point of the surface to `x`; none where there is no surface.
+    /// The nearest point of the surface to `x`; `None` if there is no surface.
     pub(crate) fn nearest(&self, x: Vec2) -> Option<Nearest> {
         let squared = |piece: &Piece| (piece.curve.project(x).point - x).norm_squared();
         let piece = if self.pieces.len() <= TREE_FROM {
@@ -226,9 +226,9 @@ impl Boundary {
     }
 }
 
-/// For each piece the piece whose start is its end, where exactly two ends meet; `None` elsewhere.
+/// For each piece the one that starts at its end, if exactly two ends meet; else `None`.
 pub(crate) fn followers(pieces: &[Piece], tolerance: f64) -> Vec<Option<usize>> {
-    // Start and end of every piece that has ends, sorted by the square of a grid they lie in: all near ones lie in the nine around.
+    // Start and end of every open piece, sorted into grid cells: all near ones lie in the nine cells around.
     let cell = |v: f64| (v / tolerance).floor() as i64;
     let mut ends: Vec<([i64; 2], Vec2, usize, bool)> = Vec::new();
     for (i, piece) in pieces.iter().enumerate().filter(|(_, piece)| !piece.curve.is_closed()) {
@@ -252,13 +252,13 @@ pub(crate) fn followers(pieces: &[Piece], tolerance: f64) -> Vec<Option<usize>> 
     next
 }
 
-/// The pieces in the order in which they follow each other, and whether the last leads back to the first.
+/// The pieces in the order in which they follow each other, and whether the chain is closed.
 pub(crate) fn chains(pieces: &[Piece], next: &[Option<usize>]) -> Vec<(Vec<usize>, bool)> {
     let mut has_before = vec![false; pieces.len()];
     next.iter().flatten().for_each(|&j| has_before[j] = true);
     let mut done = vec![false; pieces.len()];
     let mut chains = Vec::new();
-    // Open chains first: they must be entered at their start; what is left then is closed.
+    // Open chains first, from their start; the remaining ones are closed.
     let open = (0..pieces.len()).filter(|&i| !has_before[i]);
     for first in open.chain(0..pieces.len()) {
         let mut chain = Vec::new();
@@ -276,7 +276,7 @@ pub(crate) fn chains(pieces: &[Piece], next: &[Option<usize>]) -> Vec<(Vec<usize
 }
 
 fn corners(pieces: &[Piece], tolerance: f64) -> Vec<[Option<Vec2>; 2]> {
-    // Below this sum of two unit normals the corner is a cusp whose mean normal says nothing.
+    // Below this sum of two unit normals the corner is a cusp whose mean normal is meaningless.
     const CUSP: f64 = 1e-3;
     let mut corners = vec![[None; 2]; pieces.len()];
     for (i, next) in followers(pieces, tolerance).into_iter().enumerate() {

@@ -1,15 +1,15 @@
 //! The closest points of two curves, in closed form.
 //!
-//! At closest points within both curves the segment between them is normal to both: it lies on the line through the centers of two arcs,
-//! or on the normal of a segment through the center of an arc. Else one of them is an end of its curve.
+//! At closest points interior to both curves the segment between them is normal to both: it lies on the line through the centers of two arcs, or on the
+//! normal of a segment through the center of an arc. Otherwise one of them is an end of its curve.
 
 use crate::geometry::curve::{ClosestPoint, Curve};
 use crate::math::Vec2;
 
-/// Squares of distances that differ by less than this share are equal.
+/// Relative difference below which squared distances are equal.
 const LEVEL: f64 = 1e-9;
 
-/// The closest points of two curves that do not cross, the first one on `one`. Where the distance is the same along both, one pair stands in the middle.
+/// The closest points of two curves that do not cross, the first one on `one`. For curves at a constant distance, a pair in the middle.
 pub(crate) fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
     let from_one = |x: Vec2| {
         let p = one.project(x);
@@ -19,7 +19,7 @@ pub(crate) fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
         let q = other.project(x);
         [one.project(q.point), q]
     };
-    // Any point of either curve with the nearest one of the other is a candidate; the closest pair is among these.
+    // Candidates are points of either curve with the nearest one of the other; the closest pair is among them.
     let mut best = from_one(one.point(0.0));
     let mut least = squared_distance(&best);
     let mut offer = |pair: [ClosestPoint; 2]| {
@@ -33,7 +33,7 @@ pub(crate) fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
     offer(from_other(other.point(1.0)));
     match (*one, *other) {
         (Curve::Segment { .. }, Curve::Segment { .. }) => {
-            // Where they run level, the middle of the part that they share.
+            // For a constant distance, the middle of the common part.
             let ends = [
                 from_one(one.point(0.0)),
                 from_one(one.point(1.0)),
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Curves that meet no other one of the list: arcs seen from outside and from within, segments level and steep.
+    /// Curves without intersections: arcs with either orientation, segments horizontal and oblique.
     fn curves() -> Vec<Curve> {
         let arc = |x: f64, y: f64, radius: f64, start: f64, sweep: f64| Curve::Arc {
             center: Vec2::new(x, y),
@@ -96,7 +96,7 @@ mod tests {
                     .map(|k| one.point(k as f64 / SAMPLES as f64))
                     .map(|x| (other.project(x).point - x).norm())
                     .fold(f64::INFINITY, f64::min);
-                // Samples miss the closest point by up to their spacing, and its distance by that squared or less where it is no end.
+                // Samples miss the closest point by up to their spacing, and its distance by the square of that or less unless it is an end.
                 assert!(distance <= sampled + 1e-12, "{one:?} {other:?}: {distance} above {sampled}");
                 assert!(sampled - distance < 1e-4, "{one:?} {other:?}: {distance} below {sampled}");
                 assert!((one.point(found[0].u) - found[0].point).norm() < 1e-12);

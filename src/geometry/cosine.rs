@@ -1,5 +1,4 @@
-//! The wall of a cosine constriction as a smooth chain of circular arcs (biarcs), so that its distance is cheap and its
-//! normal continuous.
+//! The wall of a cosine constriction as a smooth chain of circular arcs (biarcs), which makes its distance cheap and its normal continuous.
 //!
 //! Each span of the curve is replaced by two arcs that share its end points and tangents. The number of spans is doubled
 //! until the chain lies within 1e-8 of the constriction's length of the curve.
@@ -10,13 +9,13 @@ use crate::geometry::curve::Curve;
 use crate::geometry::spec::ThroatCosine;
 use crate::math::Vec2;
 
-/// Largest accepted distance of chain and curve over the length of the constriction.
+/// Maximum distance between chain and curve over the length of the constriction.
 const ACCURACY: f64 = 1e-8;
 
-/// Spans of the first attempt and of the last one, whatever the accuracy.
+/// Number of spans of the first and of the last attempt, whatever the accuracy.
 const SPANS: (usize, usize) = (16, 4096);
 
-/// Half the width (m) and its slope at `s` (m) along the axis; the law stands at [`ThroatCosine`].
+/// Half the width (m) and its slope at `s` (m) along the axis; for the formula see [`ThroatCosine`].
 pub(crate) fn half_width(throat: &ThroatCosine, s: f64) -> (f64, f64) {
     if s.abs() >= 0.5 * throat.length {
         return (0.5 * throat.width, 0.0);
@@ -80,7 +79,7 @@ fn biarcs(throat: &ThroatCosine, spans: usize) -> Vec<Curve> {
     chain
 }
 
-/// Largest distance of sampled points of the curve from the two arcs of their span, in m.
+/// Maximum distance of sampled points of the curve from the two arcs of their span, in m.
 fn deviation(throat: &ThroatCosine, chain: &[Curve], spans: usize) -> f64 {
     const SAMPLES: usize = 8;
     let mut worst: f64 = 0.0;

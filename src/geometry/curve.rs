@@ -1,6 +1,6 @@
-//! Oriented segments and circular arcs, the pieces of every wall: the solid lies on their left, the pore on their right.
+//! Oriented segments and circular arcs, the pieces of all walls: solid on the left, pore on the right.
 //!
-//! Points are found by a parameter `u` from 0 (start) to 1 (end). A full circle is an arc that ends where it starts.
+//! Points are given by a parameter `u` from 0 (start) to 1 (end). A full circle is an arc that ends at its start.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -16,7 +16,7 @@ pub enum Curve {
         /// End in m.
         b: Vec2,
     },
-    /// A piece of a circle, counter-clockwise (convex solid) where `sweep` is above 0.
+    /// A circular arc, counter-clockwise (convex solid) if `sweep` is above 0.
     Arc {
         /// Center in m.
         center: Vec2,
@@ -24,7 +24,7 @@ pub enum Curve {
         radius: f64,
         /// Polar angle of the start in rad.
         start: f64,
-        /// Signed angle from start to end in rad, at most 2π in size.
+        /// Signed angle from start to end in rad, at most 2π in magnitude.
         sweep: f64,
     },
 }
@@ -32,13 +32,13 @@ pub enum Curve {
 /// The nearest point of a curve.
 #[derive(Debug, Clone, Copy)]
 pub struct ClosestPoint {
-    /// Parameter, 0 to 1; exactly 0 or 1 where the nearest point is an end.
+    /// Parameter, 0 to 1; exactly 0 or 1 if the nearest point is an end.
     pub u: f64,
     /// Position in m.
     pub point: Vec2,
 }
 
-/// The unit vector of polar angle `angle` in rad.
+/// The unit vector at the polar angle `angle` in rad.
 pub(crate) fn unit(angle: f64) -> Vec2 {
     Vec2::new(angle.cos(), angle.sin())
 }
@@ -49,14 +49,14 @@ pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
 }
 
 impl Curve {
-    /// A full circle: a disc's surface.
+    /// A full circle: the surface of a disc.
     pub(crate) fn circle(center: Vec2, radius: f64) -> Self {
         Self::Arc { center, radius, start: 0.0, sweep: TAU }
     }
 
-    /// The arc that leaves `a` along the unit tangent `t` and ends in `b`; a segment where it is straight.
+    /// The arc that leaves `a` along the unit tangent `t` and ends at `b`; a segment if it is straight.
     pub(crate) fn arc_from_tangent(a: Vec2, t: Vec2, b: Vec2) -> Self {
-        // A bend below this (sagitta / chord) is lost to rounding in the center's position.
+        // A bend below this (sagitta / chord) is lost in the rounding of the center.
         const STRAIGHT: f64 = 1e-7;
         let chord = b - a;
         let bend = cross(t, chord);
@@ -68,13 +68,13 @@ impl Curve {
         Self::Arc { center, radius: from.norm(), start: from.y.atan2(from.x), sweep: 2.0 * bend.atan2(t.dot(&chord)) }
     }
 
-    /// The edge from `a` to `b` with the given bulge, the tangent of a quarter of its signed angle; a segment where it is 0.
+    /// The edge from `a` to `b` with the given bulge, the tangent of a quarter of its signed angle; a segment if it is 0.
     pub fn from_bulge(a: Vec2, b: Vec2, bulge: f64) -> Self {
         let angle = 2.0 * bulge.atan();
         Self::arc_from_tangent(a, nalgebra::Rotation2::new(-angle) * (b - a).normalize(), b)
     }
 
-    /// The numbers that tell it: both ends of a segment, or center, radius, start and sweep of an arc.
+    /// Its representation by numbers: both ends of a segment, or center, radius, start and sweep of an arc.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         match *self {
             Self::Segment { a, b } => vec![a.x, a.y, b.x, b.y],
@@ -82,7 +82,7 @@ impl Curve {
         }
     }
 
-    /// The curve of these [`numbers`](Self::numbers); none where there is no such curve.
+    /// The curve of these [`numbers`](Self::numbers); `None` if there is no such curve.
     pub(crate) fn from_numbers(numbers: &[f64]) -> Option<Self> {
         if !numbers.iter().all(|number| number.is_finite()) {
             return None;
@@ -98,7 +98,7 @@ impl Curve {
 
     /// Whether this is a full circle, which has no ends.
     pub(crate) fn is_closed(&self) -> bool {
-        // Only exact circles are built with this sweep.
+        // Only exact circles are constructed with this sweep.
         matches!(self, Self::Arc { sweep, .. } if sweep.abs() >= TAU)
     }
 
@@ -131,7 +131,7 @@ impl Curve {
         -perpendicular(self.tangent(u))
     }
 
-    /// The nearest point to `x`. At the center of an arc all its points are nearest: the middle is returned.
+    /// The nearest point to `x`. The center of an arc is equidistant from all its points: the midpoint is returned.
     pub fn project(&self, x: Vec2) -> ClosestPoint {
         #[cfg(test)]
         work::count();
@@ -154,7 +154,7 @@ impl Curve {
                 if turned <= 1.0 {
                     return ClosestPoint { u: turned, point: center + r * (radius / distance) };
                 }
-                // The end that is closer is the one under the smaller angle.
+                // The nearer end is the one at the smaller angle.
                 let (past_end, before_start) = (turned - 1.0, TAU / sweep.abs() - turned);
                 let u = if before_start <= past_end { 0.0 } else { 1.0 };
                 ClosestPoint { u, point: self.point(u) }
@@ -181,7 +181,7 @@ impl Curve {
         bounds
     }
 
-    /// The piece between two parameters; `to` may pass 1 on a full circle.
+    /// The piece between two parameters; `to` may exceed 1 on a full circle.
     pub(crate) fn part(&self, from: f64, to: f64) -> Self {
         match *self {
             Self::Segment { .. } => Self::Segment { a: self.point(from), b: self.point(to) },
@@ -191,7 +191,7 @@ impl Curve {
         }
     }
 
-    /// The same points run through backwards: solid and pore change places.
+    /// The same points in reverse order: solid and pore are exchanged.
     pub(crate) fn reversed(&self) -> Self {
         match *self {
             Self::Segment { a, b } => Self::Segment { a: b, b: a },
@@ -209,7 +209,7 @@ impl Curve {
         }
     }
 
-    /// The curve turned by `angle` (rad) about the origin, then shifted by `by`.
+    /// The curve rotated by `angle` (rad) about the origin, then shifted by `by`.
     pub(crate) fn placed(&self, angle: f64, by: Vec2) -> Self {
         let turn = |v: Vec2| nalgebra::Rotation2::new(angle) * v + by;
         match *self {
@@ -220,7 +220,7 @@ impl Curve {
         }
     }
 
-    /// The signed angle in rad under which the curve is seen from `x`; over a closed outline 2π times its winding number.
+    /// The signed angle in rad that the curve subtends at `x`; over a closed outline 2π times its winding number.
     pub fn winding(&self, x: Vec2) -> f64 {
         let (a, b) = (self.point(0.0) - x, self.point(1.0) - x);
         let chord = cross(a, b).atan2(a.dot(&b));
@@ -228,8 +228,8 @@ impl Curve {
         if self.is_closed() {
             return if (x - center).norm() < radius { sweep } else { 0.0 };
         }
-        // From within its circle an arc turns the way it runs: seen from between chord and arc not the way of the chord. The sign is that of
-        // the angle, which tells it on the chord too, where the cross product is a zero of either sign.
+        // From a point between chord and arc the arc subtends an angle opposite in sign to that of its chord. The sign is that of the angle, which is valid
+        // on the chord too, where the cross product is a zero of either sign.
         let is_between = (x - center).norm() < radius && chord * sweep < 0.0;
         if is_between { chord + sweep.signum() * TAU } else { chord }
     }
@@ -246,7 +246,7 @@ impl Curve {
     }
 }
 
-/// Counts what is done with curves, so that tests see how work grows with their number.
+/// Counts operations on curves, so that tests can measure how the work grows with their number.
 #[cfg(test)]
 pub(crate) mod work {
     use std::cell::Cell;
@@ -259,7 +259,7 @@ pub(crate) mod work {
         DONE.set(DONE.get() + 1);
     }
 
-    /// Boxes and nearest points of curves that this thread computes during `job`.
+    /// Bounding boxes and nearest points of curves computed by this thread during `job`.
     pub(crate) fn of(job: impl FnOnce()) -> u64 {
         let before = DONE.get();
         job();

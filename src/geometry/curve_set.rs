@@ -1,4 +1,4 @@
-//! The curves of one body or ring, with a tree where there are many: those near a place, and the nearest one.
+//! The curves of one body or ring, with a tree if there are many: search by position, and for the nearest one.
 
 use std::ops::Deref;
 
@@ -32,7 +32,7 @@ impl Deref for CurveSet {
 }
 
 impl CurveSet {
-    /// Curves that may share a point with the box, in their order: all of them where there are few.
+    /// Curves that may intersect the box, in their order: all of them if there are few.
     pub(crate) fn near(&self, bounds: Bounds) -> impl Iterator<Item = &Curve> {
         let found = match &self.tree {
             Some(tree) => tree.near_in_order(bounds),
@@ -41,7 +41,7 @@ impl CurveSet {
         found.into_iter().map(|index| &self.curves[index])
     }
 
-    /// The nearest curve to `x` and the nearest point on it; of curves equally near the first.
+    /// The nearest curve to `x` and the nearest point on it; of equidistant curves the first one.
     pub(crate) fn nearest(&self, x: Vec2) -> Option<(&Curve, ClosestPoint)> {
         let Some(tree) = &self.tree else { return nearest_of(self.curves.iter(), x) };
         let (_, squared) = tree.nearest(x, |index| (self.curves[index].project(x).point - x).norm_squared())?;
@@ -50,7 +50,7 @@ impl CurveSet {
         nearest_of(as_near.into_iter().map(|index| &self.curves[index]), x)
     }
 
-    /// Distance of `x` from the nearest curve in m; infinite where there is none.
+    /// Distance of `x` from the nearest curve in m; infinite without curves.
     pub(crate) fn distance(&self, x: Vec2) -> f64 {
         self.nearest(x).map_or(f64::INFINITY, |(_, closest)| (closest.point - x).norm())
     }
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn of_many_curves_equally_near_the_first_is_found_as_by_a_loop() {
-        // Spokes of a wheel begin at the same distance from its hub.
+        // The spokes of a wheel start at the same distance from its hub.
         let spoke = |k: usize| {
             let t = crate::geometry::curve::unit(std::f64::consts::TAU * k as f64 / 64.0);
             Curve::Segment { a: t, b: 2.0 * t }

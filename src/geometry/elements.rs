@@ -1,4 +1,4 @@
-//! Which part of the pore space a point lies in.
+//! Elements of the pore space that contain a point.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use crate::geometry::curve::Curve;
 use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
 
-/// Parts of the plane by their exact boundaries, ready to be asked for many points.
+/// Parts of the plane with exact boundaries, prepared for point queries.
 pub(crate) struct Elements {
     boundaries: Vec<Vec<Curve>>,
     tree: Tree,
@@ -14,7 +14,7 @@ pub(crate) struct Elements {
 }
 
 impl Elements {
-    /// Parts with the pore on the right of their `boundaries` (m); `images` lead from a place to its images in a periodic domain in m, zero first.
+    /// Parts with the pore on the right of their `boundaries` (m); `images` are the shifts to periodic images in m, zero first.
     pub(crate) fn new(boundaries: Vec<Vec<Curve>>, images: Vec<Vec2>) -> Self {
         let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
         let around = |curves: &Vec<Curve>| curves.iter().map(Curve::bounds).fold(none, |a, b| a.united(&b));
@@ -22,7 +22,7 @@ impl Elements {
         Self { boundaries, tree, images }
     }
 
-    /// The part that a point (m) lies in; the first one where it lies on a border.
+    /// The part that contains a point (m); the first one for points on a common boundary.
     pub(crate) fn at(&self, x: Vec2) -> Option<usize> {
         let winds =
             |element: usize, x: Vec2| self.boundaries[element].iter().map(|curve| curve.winding(x)).sum::<f64>() < -PI;

@@ -1,8 +1,8 @@
-//! Etch offset: the walls of a drawing moved by one distance along their normals, as an etch that takes more or less than the mask says.
+//! Etch offset: the walls of a drawing displaced by a uniform distance along their normals, as by under- or overetching of the mask.
 //!
-//! Discs, capsules, half-planes, channels and pairs of discs stay what they are, with other sizes. Rings of segments and arcs are moved curve by
-//! curve: a gap at a corner is closed by an arc about it, and curves that cross are cut where they meet. All of this is exact; a feature that would
-//! vanish, or an outline that would cross itself, is refused.
+//! Discs, capsules, half-planes, channels and pairs of discs keep their type, with other sizes. Rings of segments and arcs are displaced curve by curve: a
+//! gap at a corner is closed by an arc about it, and curves that cross are cut at their intersection. All of this is exact; a feature that would vanish, or
+//! an outline that would intersect itself, is an error.
 
 use std::f64::consts::TAU;
 
@@ -17,27 +17,27 @@ use crate::geometry::spec::{
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2, perpendicular};
 
-/// Turn of a corner in rad below which two curves run on smoothly.
+/// Angle of a corner in rad below which two curves join smoothly.
 const SMOOTH: f64 = 1e-4;
 
-/// Gaps at corners below this share of the domain are closed by moving both ends: an arc so short would be lost to rounding.
+/// Gaps at corners below this fraction of the domain are closed by moving both ends: so short an arc would be lost to rounding.
 const SHORTEST: f64 = 1e-8;
 
-/// Lengths below this share of the domain count as none.
+/// Lengths below this fraction of the domain count as zero.
 const TOLERANCE: f64 = 1e-9;
 
-/// Why a shape cannot be moved, and a way out.
+/// Why a shape cannot be displaced, and a remedy.
 type Refused = (String, &'static str);
 
 const SMALLER: &str = "take a smaller etch offset, or draw the shape without what is so small";
 
 impl GeometrySpec {
-    /// The same drawing with its walls moved into the pore by `offset` in m, below 0 into the solid.
+    /// The same drawing with its walls displaced into the pore by `offset` in m, below 0 into the solid.
     ///
     /// # Errors
-    /// The first shape that cannot be moved so far, or what is wrong with the result.
+    /// The first shape that cannot be displaced so far, or the problems of the result.
     pub(crate) fn etched(&self, offset: f64) -> Result<Self, Problem> {
-        // By this much the shapes themselves grow.
+        // Growth of the shapes themselves.
         let growth = if self.solid == SolidSide::Inside { offset } else { -offset };
         if growth < 0.0
             && let Some([first, second]) = self.overlapping()
@@ -63,7 +63,7 @@ impl GeometrySpec {
         }
     }
 
-    /// Two shapes that have more than a part of their outlines in common.
+    /// Two shapes whose outlines overlap.
     fn overlapping(&self) -> Option<[usize; 2]> {
         let domain = Bounds { min: Vec2::from(self.min), max: Vec2::from(self.max) };
         let tolerance = TOLERANCE * domain.size().max();
@@ -85,7 +85,7 @@ impl GeometrySpec {
     }
 }
 
-/// Whether the surface of a body runs within another one, in the domain or near it.
+/// Whether the surface of a body enters another one, in the domain or near it.
 fn reaches_into(body: &Body, other: &Body, domain: Bounds, tolerance: f64) -> bool {
     let near = domain.grown(domain.size().max());
     body.curves.iter().filter(|curve| near.overlaps(&curve.bounds())).any(|curve| {
@@ -100,7 +100,7 @@ fn at(index: usize, shape: &ShapeSpec) -> String {
 }
 
 impl ShapeSpec {
-    /// The shape with its outline moved outwards by `by` in m, below 0 inwards, with no arc about a corner shorter than `shortest` in m.
+    /// The shape with its outline displaced outwards by `by` in m, below 0 inwards, with no arc about a corner shorter than `shortest` in m.
     fn grown(&self, by: f64, shortest: f64) -> Result<Self, Refused> {
         Ok(match self {
             Self::Disc(disc) => Self::Disc(Disc { radius: left(disc.radius + by, "disc")?, ..disc.clone() }),
@@ -148,7 +148,7 @@ impl ShapeSpec {
     }
 }
 
-/// A size that is above 0.
+/// A size that must be above 0.
 fn left(size: f64, what: &str) -> Result<f64, Refused> {
     if size > 0.0 { Ok(size) } else { Err((format!("nothing is left of the {what}"), SMALLER)) }
 }
@@ -175,7 +175,7 @@ fn grown_polygon(polygon: &CurvedPolygon, by: f64, shortest: f64) -> Result<Curv
     Ok(CurvedPolygon { outer: ring(&polygon.outer)?, holes, ..polygon.clone() })
 }
 
-/// A curve moved along its normal, out of the solid.
+/// A curve displaced along its normal, out of the solid.
 fn moved(curve: &Curve, by: f64) -> Result<Curve, Refused> {
     match *curve {
         Curve::Segment { a, b } => {
@@ -198,15 +198,15 @@ fn moved(curve: &Curve, by: f64) -> Result<Curve, Refused> {
     }
 }
 
-/// How two neighboring curves of a moved ring are joined.
+/// Joint of two neighboring curves of a displaced ring.
 enum Joint {
-    /// They run on, or are cut where they meet.
+    /// They join smoothly, or are cut at their intersection.
     Cut(Vec2),
-    /// By an arc of this bulge from the end of the first one to the beginning of the second one.
+    /// By an arc of this bulge from the end of the first to the start of the second one.
     Arc(f64),
 }
 
-/// The ring of these curves moved out of the solid, as vertices with bulges.
+/// The ring of these curves displaced out of the solid, as vertices with bulges.
 fn grown_ring(ring: &[Curve], by: f64, shortest: f64) -> Result<Vec<[f64; 3]>, Refused> {
     let parts = ring.iter().map(|curve| moved(curve, by)).collect::<Result<Vec<_>, _>>()?;
     let count = parts.len();
@@ -220,21 +220,21 @@ fn grown_ring(ring: &[Curve], by: f64, shortest: f64) -> Result<Vec<[f64; 3]>, R
             Ok(Joint::Arc((0.25 * turn).tan()))
         } else {
             let corner = ring[second].point(0.0);
-            let place = meeting(&parts[first], &parts[second], corner);
+            let point = meeting(&parts[first], &parts[second], corner);
             let vanished =
                 || (format!("an edge at the corner ({:e}, {:e}) m would vanish", corner.x, corner.y), SMALLER);
-            place.map(Joint::Cut).ok_or_else(vanished)
+            point.map(Joint::Cut).ok_or_else(vanished)
         }
     };
     let joints = (0..count).map(joint).collect::<Result<Vec<_>, _>>()?;
     let mut vertices = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         let begin = match joints[(index + count - 1) % count] {
-            Joint::Cut(place) => place,
+            Joint::Cut(point) => point,
             Joint::Arc(_) => part.point(0.0),
         };
         let end = match joints[index] {
-            Joint::Cut(place) => place,
+            Joint::Cut(point) => point,
             Joint::Arc(_) => part.point(1.0),
         };
         let bulge = bulge_between(part, begin, end).ok_or_else(|| {
@@ -249,13 +249,13 @@ fn grown_ring(ring: &[Curve], by: f64, shortest: f64) -> Result<Vec<[f64; 3]>, R
     Ok(vertices)
 }
 
-/// Where two curves that meet in a corner cross, nearest to it; none where they do not.
+/// The intersection of two curves nearest to their common corner; `None` if there is none.
 fn meeting(first: &Curve, second: &Curve, corner: Vec2) -> Option<Vec2> {
-    let places = crossings(first, second);
-    places.into_iter().min_by(|a, b| (a - corner).norm().total_cmp(&(b - corner).norm()))
+    let points = crossings(first, second);
+    points.into_iter().min_by(|a, b| (a - corner).norm().total_cmp(&(b - corner).norm()))
 }
 
-/// The bulge of what is left of a curve between two of its points; none where nothing is.
+/// The bulge of the part of a curve between two of its points; `None` if that is empty.
 fn bulge_between(part: &Curve, begin: Vec2, end: Vec2) -> Option<f64> {
     match *part {
         Curve::Segment { .. } => ((end - begin).dot(&part.tangent(0.0)) > 0.0).then_some(0.0),
@@ -264,7 +264,7 @@ fn bulge_between(part: &Curve, begin: Vec2, end: Vec2) -> Option<f64> {
             let angle = cross(a, b).atan2(a.dot(&b));
             // The angle in the direction of the arc, from 0 to a full turn.
             let along = if angle * sweep < 0.0 { angle + TAU * sweep.signum() } else { angle };
-            // An end that slipped past the other one makes the arc longer than it was.
+            // An end beyond the other one makes the arc longer than before.
             (along != 0.0 && along.abs() <= sweep.abs() * (1.0 + SMOOTH)).then(|| (0.25 * along).tan())
         }
     }
@@ -302,7 +302,7 @@ mod tests {
             for (i, j) in (0..40).flat_map(|i| (0..40).map(move |j| (i, j))) {
                 let x = Vec2::new(0.25 * f64::from(i) + 0.1, 0.25 * f64::from(j) + 0.1);
                 let expected = before.signed_distance(x) - offset;
-                // Where walls have gone to, the nearest point of the wall before is not that of the wall after at a sharp corner.
+                // At a sharp corner the nearest point of the old wall to a point of the new wall is not its origin.
                 if expected * offset > 0.0 {
                     count += 1;
                     let found = after.signed_distance(x);

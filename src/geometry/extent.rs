@@ -1,14 +1,14 @@
-//! Sizes and places that can be computed with: of the domain, and of shapes beside it.
+//! Numerically admissible sizes and positions of the domain, and of shapes relative to it.
 //!
-//! Where curves meet, lengths below a billionth of the domain count as zero. A shape a million times as large as the domain is known
-//! to a tenth of that there; beyond, its wall would be rounding.
+//! At intersections of curves, lengths below a billionth of the domain count as zero. The wall of a shape a million times larger than the domain is accurate
+//! to a tenth of that; beyond, it would be lost to rounding.
 
 use crate::geometry::body::Body;
 use crate::geometry::spec::{GeometrySpec, RandomPack, ShapeSpec};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
-/// Sides of a domain in m: from a thousandth of an atom to the way light goes in a month.
+/// Sides of a domain in m: from a thousandth of an atom to the distance that light travels in a month.
 const DOMAIN: (f64, f64) = (1e-15, 1e15);
 
 /// Longer side of a domain over the shorter one, and its distance from the origin over its longer side.
@@ -17,10 +17,10 @@ const LARGEST_RATIO: f64 = 1e6;
 /// Smallest and largest length of a shape over the longer side of the domain.
 const SIZES: (f64, f64) = (1e-9, 1e6);
 
-/// Largest turn in degrees; beyond, digits of the angle are lost.
+/// Largest rotation in degrees; beyond, digits of the angle are lost.
 const LARGEST_TURN: f64 = 3600.0;
 
-/// What is wrong with the size or the place of a domain whose corners are right.
+/// Problems of the size or the position of a domain whose corners are valid.
 pub(crate) fn domain_problems(spec: &GeometrySpec) -> Option<Problem> {
     let (min, max) = (Vec2::from(spec.min), Vec2::from(spec.max));
     let size = max - min;
@@ -47,14 +47,14 @@ pub(crate) fn domain_problems(spec: &GeometrySpec) -> Option<Problem> {
     })
 }
 
-/// Largest shape over a period of the domain: more of its images would lie across each other.
+/// Largest shape over a period of the domain: beyond, too many of its images would overlap.
 const MOST_PERIODS: f64 = 20.0;
 
-/// Most shapes with their periodic images.
+/// Maximum number of shapes with their periodic images.
 const MOST_IMAGES: f64 = 4e6;
 
 impl GeometrySpec {
-    /// What is wrong with the shapes where the domain repeats itself along x and y; paths as in a shape file.
+    /// Problems of the shapes in a domain periodic along x and y; paths as in a shape file.
     pub(crate) fn periodic_problems(&self, periodic: [bool; 2]) -> Vec<Problem> {
         let domain = Bounds { min: Vec2::from(self.min), max: Vec2::from(self.max) };
         let (mut found, mut images) = (Vec::new(), 0.0);
@@ -90,17 +90,17 @@ impl GeometrySpec {
     }
 }
 
-/// What numbers of a shape mean.
+/// Meanings of the numbers of a shape.
 pub(crate) enum Numbers<'s> {
     /// Lengths in m.
     Sizes(&'static str, &'s [f64]),
     /// Points in m.
     Points(&'static str, Vec<[f64; 2]>),
-    /// A turn in degrees.
+    /// A rotation in degrees.
     Turn(f64),
 }
 
-/// What is wrong with the sizes and places of a shape beside its domain; `at` is its place, such as `shapes[2]`.
+/// Problems of the sizes and positions of a shape relative to its domain; `at` is its path, such as `shapes[2]`.
 pub(crate) fn shape_problems(domain: Bounds, shape: &ShapeSpec, at: &str) -> Vec<Problem> {
     let side = domain.size().max();
     let (least, most) = (SIZES.0 * side, SIZES.1 * side);
@@ -119,7 +119,7 @@ pub(crate) fn shape_problems(domain: Bounds, shape: &ShapeSpec, at: &str) -> Vec
             }
             Numbers::Points(key, points) => {
                 let center = domain.center();
-                // Of two numbers of which one is none, `max` takes the other.
+                // If one of two numbers is NaN, `max` returns the other one.
                 let is_near = |[x, y]: [f64; 2]| (x - center.x).abs() <= most && (y - center.y).abs() <= most;
                 let Some([x, y]) = points.iter().find(|point| !is_near(**point)) else { continue };
                 let expected = format!("a point within {most:.1e} m of a domain of {side:e} m");
@@ -157,10 +157,10 @@ pub(crate) fn numbers(shape: &ShapeSpec) -> Vec<Numbers<'_>> {
             Turn(s.rotation_deg),
         ],
         ShapeSpec::CurvedPolygon(s) => {
-            let places = |ring: &[[f64; 3]]| ring.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>();
+            let points = |ring: &[[f64; 3]]| ring.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>();
             vec![
-                Points("outer", places(&s.outer)),
-                Points("holes", places(&s.holes.concat())),
+                Points("outer", points(&s.outer)),
+                Points("holes", points(&s.holes.concat())),
                 Points("position", vec![s.position]),
                 Turn(s.rotation_deg),
             ]

@@ -1,7 +1,7 @@
-//! Tests of how the work of a geometry grows with the number of shapes and vertices: as n log n, never as its square.
+//! Tests of the complexity of geometry: the work grows as n log n with the number of shapes and vertices, never as its square.
 //!
-//! Work is counted and not timed: boxes and nearest points of curves, which every search and every cut needs. Four times as many curves then
-//! take four times as much, and a little more where a tree is a level deeper; with every pair tried they would take sixteen times as much.
+//! Work is counted, not timed: bounding boxes and nearest points of curves, which every search and every cut needs. Four times as many curves then take four
+//! times the work, and a little more where a tree is a level deeper; testing all pairs would take sixteen times the work.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::geometry::curve::work;
 use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 
-/// Least and most work for four times as many curves, over that for the smaller number.
+/// Range of the ratio of work for four times as many curves.
 const GROWTH: std::ops::Range<f64> = 3.0..6.0;
 
 fn spec(solid: SolidSide, size: f64, shapes: Vec<ShapeSpec>) -> GeometrySpec {
@@ -22,8 +22,8 @@ fn discs(side: usize, radius: f64) -> Vec<ShapeSpec> {
     (0..side * side).map(|k| ShapeSpec::Disc(disc(k))).collect()
 }
 
-/// A gear of half so many teeth, about as deep as wide, shifted by `x`. (Of long oblique edges side by side the boxes overlap, which no tree of
-/// boxes can help.)
+/// A gear with half as many teeth, about as deep as wide, shifted by `x`. (The bounding boxes of long oblique edges side by side overlap, against which no
+/// tree of boxes helps.)
 fn gear(teeth: usize, x: f64) -> Vec<[f64; 2]> {
     let depth = TAU / teeth as f64;
     let at = |k: usize| (TAU * k as f64 / teeth as f64, if k.is_multiple_of(2) { 1.0 - depth } else { 1.0 });
@@ -39,7 +39,7 @@ fn curved(outer: Vec<[f64; 2]>) -> ShapeSpec {
     ShapeSpec::CurvedPolygon(CurvedPolygon { outer, holes: Vec::new(), position: [0.0; 2], rotation_deg: 0.0 })
 }
 
-/// All that the command `geometry` asks for but throats.
+/// All quantities of the command `geometry` except throats.
 fn measured(spec: &GeometrySpec) -> u64 {
     work::of(|| {
         let geometry = Geometry::new(spec).unwrap().with_sides([true, false], [false, false, true, true]);
@@ -65,7 +65,7 @@ fn discs_cost_the_same_each_however_many_there_are() {
 fn edges_cost_the_same_each_however_long_their_ring_is() {
     assert_grows_slowly("polygon", |share| spec(SolidSide::Inside, 0.8, vec![polygon(gear(1000 * share, 0.0))]));
     assert_grows_slowly("arcs", |share| spec(SolidSide::Inside, 0.8, vec![curved(gear(1000 * share, 0.0))]));
-    // Two rings that cross: cuts and places in one of the edges of the other.
+    // Two rings that cross: intersections and inside tests of one in the edges of the other.
     assert_grows_slowly("two rings", |share| {
         let rings = vec![curved(gear(1000 * share, 0.0)), polygon(gear(1000 * share, 0.5))];
         spec(SolidSide::Inside, 1.2, rings)

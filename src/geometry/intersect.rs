@@ -1,12 +1,12 @@
-//! Where one curve meets another: the parameters at which it has to be split before its parts are told in from out.
+//! Intersections of two curves: the parameters at which one has to be split before its parts are classified as inside or outside.
 //!
-//! Crossings of segments and circles in closed form. Where two curves run together, the ends of the other curve are the
-//! places to split. Touching circles give one place or two near ones; an extra split does no harm.
+//! Intersections of segments and circles in closed form. Coincident curves are split at the ends of the other curve. Tangent circles give one point or two
+//! near ones; an extra split is harmless.
 
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
-/// Adds to `found` the parameters on `curve` where `other` meets it, up to `tolerance` in m.
+/// Adds to `found` the parameters on `curve` at its intersections with `other`, within `tolerance` in m.
 pub(crate) fn meeting_places(curve: &Curve, other: &Curve, tolerance: f64, found: &mut Vec<f64>) {
     let mut keep = |x: Vec2| {
         let (here, there) = (curve.project(x), other.project(x));
@@ -21,7 +21,7 @@ pub(crate) fn meeting_places(curve: &Curve, other: &Curve, tolerance: f64, found
     crossings(curve, other).into_iter().for_each(keep);
 }
 
-/// The places where the lines and circles that two curves are parts of cross.
+/// The intersections of the lines and circles that contain two curves.
 pub(crate) fn crossings(curve: &Curve, other: &Curve) -> Vec<Vec2> {
     match (*curve, *other) {
         (Curve::Segment { a, b }, Curve::Segment { a: c, b: d }) => line_line(a, b - a, c, d - c).into_iter().collect(),
@@ -37,7 +37,7 @@ pub(crate) fn crossings(curve: &Curve, other: &Curve) -> Vec<Vec2> {
 
 fn line_line(a: Vec2, along: Vec2, c: Vec2, other: Vec2) -> Option<Vec2> {
     let determinant = cross(along, other);
-    // Parallel to rounding: the ends of the pieces are the only places to split.
+    // Parallel up to rounding: split only at the ends of the pieces.
     if determinant.abs() <= 1e-14 * along.norm() * other.norm() {
         return None;
     }
@@ -48,7 +48,7 @@ fn line_circle(a: Vec2, along: Vec2, center: Vec2, radius: f64) -> [Option<Vec2>
     let Some(t) = along.try_normalize(0.0) else { return [None, None] };
     let middle = a + t * (center - a).dot(&t);
     let miss = (center - middle).norm();
-    // A line that touches within rounding still counts; `keep` has the last word.
+    // A line tangent within rounding still counts; `keep` decides.
     let half =
         if miss > radius * (1.0 + 1e-9) { return [None, None] } else { (radius - miss).max(0.0) * (radius + miss) };
     let half = half.sqrt();

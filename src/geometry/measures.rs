@@ -1,7 +1,7 @@
 //! Porosity, specific surface and a grid of wall distances.
 //!
-//! The porosity is exact: Green's theorem over the segments and arcs that bound the solid within the domain. Its error
-//! estimate is the gap by which that outline fails to close.
+//! The porosity is exact: Green's theorem over the segments and arcs that bound the solid within the domain. Its error estimate is the gap by which that
+//! outline fails to close.
 
 use std::borrow::Cow;
 
@@ -12,17 +12,17 @@ use crate::geometry::solid::Geometry;
 use crate::math::Vec2;
 use crate::snapshot::{Field, Grid, Values};
 
-/// A pure number with its error bar.
+/// A dimensionless number with its error bar.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Porosity {
-    /// Share of the domain that is not solid, 0 to 1.
+    /// Fraction of the domain that is not solid, 0 to 1.
     pub value: f64,
     /// Estimated error.
     pub uncertainty: f64,
 }
 
 impl Geometry {
-    /// The share of the domain that is not solid.
+    /// The fraction of the domain that is not solid.
     pub fn porosity(&self) -> Porosity {
         let domain = self.bounds();
         let outline = self.solid_outline();
@@ -40,7 +40,7 @@ impl Geometry {
         self.wall_length() / self.bounds().area()
     }
 
-    /// Closed outline of the solid within the domain: its walls, and the domain's sides where they cut solid.
+    /// Closed outline of the solid within the domain: its walls, and the sides of the domain where they cut solid.
     pub(crate) fn solid_outline(&self) -> Vec<Curve> {
         let tolerance = self.tolerance();
         let frame = Body::of_box(u32::MAX, self.bounds());
@@ -70,11 +70,11 @@ impl Geometry {
 
     /// Wall distance (m) and wall normal on a regular grid over the domain, about `spacing` (m) apart.
     ///
-    /// The spacing is fitted so that nodes lie on all sides of the domain. No wall: distance infinite, normal zero.
+    /// The spacing is adjusted so that nodes lie on all sides of the domain. Without walls: distance infinite, normal zero.
     pub fn distance_grid(&self, spacing: f64) -> Grid<'static> {
         use rayon::prelude::*;
         let domain = self.bounds();
-        // A grid of more cells per side than this cannot be meant.
+        // Larger numbers of cells per side are mistakes.
         const MOST_CELLS: f64 = 20_000.0;
         let cells = domain.size().map(|side| (side / spacing).round().clamp(1.0, MOST_CELLS));
         let step = domain.size().component_div(&cells);

@@ -1,7 +1,7 @@
 //! Pore geometry: shapes, the signed distance to their surface and its normal, shape files and measures.
 //!
-//! A written shape ([`spec`]) becomes closed bodies with surface curves (segments and arcs); `boundary` unites them;
-//! [`Geometry`] answers distance and normal; [`measures`] and [`throats`] tell porosity, wall length and narrow passages.
+//! A specified shape ([`spec`]) becomes closed bodies with surface curves (segments and arcs); `boundary` unites them; [`Geometry`] provides distance and
+//! normal; [`measures`] and [`throats`] provide porosity, wall length and throats.
 
 pub(crate) mod body;
 pub(crate) mod boundary;

@@ -1,10 +1,9 @@
-//! Offset curves: lines at a constant depth below the surface of a solid, or above it, along which particles stand.
+//! Offset curves: lines at a constant depth below the surface of a solid, or above it, on which particles are placed.
 //!
-//! The surface is followed from piece to piece. Each sample of it is moved along the normal, a fan of samples around each
-//! corner closes the gap that opens there, and a sample is kept where it has its depth indeed: where bodies
-//! overlap, and within a corner, another part of the surface is nearer, and the line is cut.
-//! Straight parts that the caller's lattice fits already are left out. The interface between two phases is the surface of the region that one
-//! of them fills.
+//! The surface is followed from piece to piece. Each sample of it is displaced along the normal, and a fan of samples around each corner closes the gap that
+//! opens there. A sample is kept if its depth is the nominal one: where bodies overlap, and on the inner side of corners, another part of the surface is
+//! nearer, and the line is cut. Straight parts that the caller's lattice fits are omitted. The interface between two phases is the surface of the region
+//! filled by one of them.
 
 use rayon::prelude::*;
 
@@ -13,16 +12,16 @@ use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
 use crate::math::{Bounds, Vec2};
 
-/// A depth that differs by less than this share of the distance of samples is the same.
+/// Tolerance of the depth over the distance of samples.
 const SAME_DEPTH: f64 = 1e-2;
 
-/// Halvings of the interval in which a line is cut.
+/// Bisections of the interval in which a line is cut.
 const HALVINGS: usize = 12;
 
-/// Samples of a part of a curve that is not divided further.
+/// Number of samples of a part of a curve that is not divided further.
 const LEAST_SAMPLES: usize = 16;
 
-/// Ends of a line that are nearer than this many distances of samples are joined: the two sides of a corner.
+/// Ends of a line nearer than this many distances of samples are joined: the two sides of a corner.
 const JOINED: f64 = 2.0;
 
 /// A line at a constant depth.
@@ -30,7 +29,7 @@ const JOINED: f64 = 2.0;
 pub struct OffsetCurve {
     /// Its points in m, finely sampled.
     pub points: Vec<Vec2>,
-    /// Whether the last point is joined to the first.
+    /// Whether the last point is connected to the first.
     pub closed: bool,
 }
 
@@ -45,14 +44,14 @@ impl OffsetCurve {
         self.points.windows(2).map(|pair| (pair[0], pair[1])).chain(back)
     }
 
-    /// Points at equal distances along the line, as near to `spacing` (m) as their number allows; an even number around a closed line, which
-    /// keeps the symmetry of a disc.
+    /// Equidistant points along the line, as near to `spacing` (m) as their number allows; an even number on a closed line, which preserves the symmetry of a
+    /// disc.
     pub(crate) fn every(&self, spacing: f64) -> Vec<Vec2> {
         let share = self.length() / spacing;
         self.divided(if self.closed { 2.0 * (0.5 * share).round() } else { share.round() } as usize)
     }
 
-    /// `count` points at equal distances along the line, half of one away from the ends of an open line.
+    /// `count` equidistant points along the line, starting half a spacing from the ends of an open line.
     pub fn divided(&self, count: usize) -> Vec<Vec2> {
         let length = self.length();
         let mut points = Vec::with_capacity(count);
@@ -68,17 +67,17 @@ impl OffsetCurve {
             }
             passed += here;
         }
-        // The last place can be lost to rounding of the length.
+        // The last point can be lost to rounding of the length.
         let last = self.points[self.points.len() - 1];
         points.resize(count, last);
         points
     }
 }
 
-/// The parts of the surface of a geometry that no lattice fits: curved, oblique, or between its rows.
+/// The parts of a geometry's surface that do not fit a lattice: curved, oblique, or between its rows.
 pub struct UnfittedSurface<'a> {
     geometry: &'a Geometry,
-    /// The domain, with as much around it again: where lines can be asked for.
+    /// The domain, extended by its own size: the range of admissible lines.
     near: Bounds,
     is_unfitted: Vec<bool>,
     next: Vec<Option<usize>>,
@@ -89,19 +88,19 @@ pub struct UnfittedSurface<'a> {
 /// Whether a point of a surface (m) with this normal counts.
 type Counts<'a> = dyn Fn(Vec2, Vec2) -> bool + Send + Sync + 'a;
 
-/// The nearest point of a surface that counts.
+/// The nearest relevant point of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Near {
     /// Signed distance in m, below 0 in the solid.
     pub(crate) distance: f64,
     /// Unit normal out of the solid.
     pub(crate) normal: Vec2,
-    /// Whether no lattice fits the surface there; a corner is where one of its two sides is.
+    /// Whether the surface does not fit a lattice there; at a corner, whether one of its two sides does not.
     pub(crate) is_unfitted: bool,
 }
 
 impl<'a> UnfittedSurface<'a> {
-    /// The surface near the domain but the straight parts whose ends `is_on_lattice` takes.
+    /// The surface near the domain without the straight parts whose ends satisfy `is_on_lattice`.
     pub fn new(geometry: &'a Geometry, reach: f64, is_on_lattice: impl Fn(Vec2, Vec2) -> bool) -> Self {
         let pieces = &geometry.boundary.pieces;
         let near = geometry.bounds().grown(reach);
@@ -119,22 +118,22 @@ impl<'a> UnfittedSurface<'a> {
         Self { geometry, near, is_unfitted, next, before, counts: None }
     }
 
-    /// The same surface, of which only the points count for which `counts` holds, by their place (m) and the normal there.
+    /// The same surface, restricted to points for which `counts` holds, given their position (m) and normal.
     pub(crate) fn where_it(self, counts: impl Fn(Vec2, Vec2) -> bool + Send + Sync + 'a) -> Self {
         Self { counts: Some(Box::new(counts)), ..self }
     }
 
-    /// Whether there are none.
+    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         !self.is_unfitted.contains(&true)
     }
 
-    /// Whether the part nearest to `x` is one of these; a corner is where one of its two sides is.
+    /// Whether the part nearest to `x` is one of these; at a corner, whether one of its two sides is.
     pub fn own(&self, x: Vec2) -> bool {
         self.near(x, f64::INFINITY).is_some_and(|near| near.is_unfitted)
     }
 
-    /// The point of the surface nearest to `x` that counts, where there is one within `reach` (m).
+    /// The nearest relevant point of the surface within `reach` (m) of `x`.
     pub(crate) fn near(&self, x: Vec2, reach: f64) -> Option<Near> {
         let (x, boundary) = (self.geometry.wrapped(x), &self.geometry.boundary);
         let nearest = match &self.counts {
@@ -157,7 +156,7 @@ impl<'a> UnfittedSurface<'a> {
         Some(Near { distance: wall.distance, normal: wall.normal, is_unfitted })
     }
 
-    /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
+    /// The lines at `depth` below the surface, or above it if that is negative, where `within` holds, sampled at intervals `step`; all in m.
     pub fn offset_curves(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<OffsetCurve> {
         let mut offset_curves = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
@@ -167,7 +166,7 @@ impl<'a> UnfittedSurface<'a> {
         offset_curves
     }
 
-    /// The samples of a chain moved to `depth`; those of parts that are left out are none, and cut the line.
+    /// The samples of a chain displaced to `depth`; those of omitted parts are `None`, and cut the line.
     fn samples(&self, chain: &[usize], is_closed: bool, depth: f64, step: f64) -> Vec<Option<Vec2>> {
         let mut samples = Vec::new();
         for (k, &i) in chain.iter().enumerate() {
@@ -182,7 +181,7 @@ impl<'a> UnfittedSurface<'a> {
             if let Some(j) = follower.filter(|&j| !curve.is_closed() && (self.is_unfitted[i] || self.is_unfitted[j])) {
                 let (from, to) = (curve.tangent(1.0), self.geometry.boundary.pieces[j].curve.tangent(0.0));
                 let angle = cross(from, to).atan2(from.dot(&to));
-                // Below a corner into the pore, and above one into the solid.
+                // Below a reentrant corner of the solid, and above a convex one.
                 let leaves_gap = angle * depth < 0.0;
                 if leaves_gap {
                     samples.extend(fan(curve.point(1.0), curve.normal(1.0) * depth, angle, step).map(Some));
@@ -192,11 +191,11 @@ impl<'a> UnfittedSurface<'a> {
         samples
     }
 
-    /// Samples of a curve as its parameter, every `step` (m) or a little nearer; one that is none for each part far from the domain, however long.
+    /// Samples of a curve by parameter, at intervals of at most `step` (m); a single `None` for each part far from the domain, however long.
     fn samples_of(&self, curve: &Curve, step: f64, take: &mut dyn FnMut(Option<f64>)) {
         let count = (curve.length() / step).ceil().max(1.0) as usize;
         let last = if curve.is_closed() { count - 1 } else { count };
-        // Parts that are still to be taken, the next one last.
+        // Stack of the remaining parts, the next one last.
         let mut parts = vec![(0, last)];
         while let Some((from, to)) = parts.pop() {
             let half = (to - from) as f64 * 0.5 * curve.length() / count as f64;
@@ -212,7 +211,7 @@ impl<'a> UnfittedSurface<'a> {
         }
     }
 
-    /// The parts of a sampled line that have their depth.
+    /// The parts of a sampled line that have the nominal depth.
     fn cut(
         &self,
         samples: &[Option<Vec2>],
@@ -226,7 +225,7 @@ impl<'a> UnfittedSurface<'a> {
         };
         let good: Vec<bool> = samples.par_iter().map(|x| x.is_some_and(has_depth)).collect();
         let place = |i: usize| samples[i].unwrap_or_default();
-        // The last good place between a good sample and a bad one.
+        // The last valid point between a valid and an invalid sample.
         let end = |good: usize, bad: usize| {
             let (mut a, mut b) = (place(good), samples[bad]?);
             for _ in 0..HALVINGS {
@@ -256,7 +255,7 @@ impl<'a> UnfittedSurface<'a> {
             }
         }
         if !line.is_empty() {
-            // A closed line was entered at a bad sample, to which its last good one leads.
+            // A closed line starts at an invalid sample, which follows its last valid one.
             line.extend(if is_closed { end((first + n - 1) % n, first) } else { None });
             lines.push(line);
         }
@@ -264,13 +263,13 @@ impl<'a> UnfittedSurface<'a> {
     }
 }
 
-/// Samples around a corner: `spoke` from the first to the corner, turned by `angle` in all.
+/// Samples around a corner: `spoke` from the first one to the corner, rotated by `angle` in total.
 fn fan(corner: Vec2, spoke: Vec2, angle: f64, step: f64) -> impl Iterator<Item = Vec2> {
     let count = (angle.abs() * spoke.norm() / step).ceil().max(1.0) as usize;
     (0..=count).map(move |k| corner - nalgebra::Rotation2::new(angle * k as f64 / count as f64) * spoke)
 }
 
-/// Joins lines whose ends are nearer than `reach` (m) to the begin of the next one; none shorter than that is kept.
+/// Joins lines whose ends are within `reach` (m) of the start of the next one; lines shorter than that are dropped.
 fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<OffsetCurve> {
     let mut joined: Vec<Vec<Vec2>> = Vec::new();
     for line in lines {
@@ -287,7 +286,7 @@ fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<OffsetCurve> 
     curves
 }
 
-/// Joins the last line of a closed chain to the first where it leads on into it.
+/// Joins the last line of a closed chain to the first one if it continues into it.
 fn close(curves: &mut Vec<OffsetCurve>, reach: f64) {
     let Some(last) = curves.pop() else { return };
     let end = last.points[last.points.len() - 1];

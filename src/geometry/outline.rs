@@ -20,7 +20,7 @@ impl Geometry {
         self.outline_within(0.0)
     }
 
-    /// The same with chords within `error` (m) of their arcs, as far as the angle between vertices stays from 1 to 15 degrees.
+    /// The same with chords within `error` (m) of their arcs, but angles between vertices of 1 to 15 degrees.
     pub(crate) fn outline_within(&self, error: f64) -> Lines<'static> {
         let pieces = self.visible_pieces();
         let next = followers(&pieces, 10.0 * self.tolerance());
@@ -67,12 +67,12 @@ impl Geometry {
     }
 }
 
-/// Parameters of the vertices of a curve whose chords lie within `error` (m) of it, its end left out.
+/// Parameters of the vertices of a curve whose chords lie within `error` (m) of it, without its end.
 fn samples(curve: &Curve, error: f64) -> impl Iterator<Item = f64> + use<> {
     let count = match *curve {
         Curve::Segment { .. } => 1,
         Curve::Arc { radius, sweep, .. } => {
-            // A chord of this angle lies radius (1 − cos(angle/2)) from the middle of its arc.
+            // Sagitta of a chord of this angle: radius (1 − cos(angle/2)).
             let angle = 2.0 * (1.0 - error / radius).clamp(-1.0, 1.0).acos();
             (sweep.abs() / angle.clamp(FINE_ANGLE, COARSE_ANGLE)).ceil().max(1.0) as usize
         }
@@ -89,9 +89,9 @@ mod tests {
     fn chords_lie_within_the_error_asked_for_and_no_denser_than_a_degree() {
         for (error, count) in [(0.0, 360), (1e-3, 71), (10.0, 24)] {
             let circle = Curve::circle(Vec2::zeros(), 1.0);
-            let places: Vec<f64> = samples(&circle, error).collect();
-            assert_eq!(places.len(), count);
-            let middle = 0.5 * (circle.point(places[0]) + circle.point(places[1]));
+            let parameters: Vec<f64> = samples(&circle, error).collect();
+            assert_eq!(parameters.len(), count);
+            let middle = 0.5 * (circle.point(parameters[0]) + circle.point(parameters[1]));
             assert!(1.0 - middle.norm() <= error.max(4e-5));
         }
     }

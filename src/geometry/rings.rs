@@ -1,9 +1,9 @@
-//! How the rings of a polygon, of segments and arcs, lie to themselves and to each other: no ring crosses or touches itself, holes lie
-//! within the outer ring and beside each other, and rings touch at points at most.
+//! Validity of the rings of a polygon of segments and arcs: no ring crosses or touches itself, holes lie within the outer ring and outside each other, and
+//! rings touch at isolated points at most.
 //!
-//! Edges that can meet are found by a tree over their boxes. Two segments meet by exact predicates (crate `geo`); where an arc is involved they
-//! meet within rounding. Rings that meet are cut there, and each part is told in or out of the other ring by winding numbers. Left
-//! out: holes that touch so that they cut the polygon into several parts, which harm nothing here.
+//! Edges that may intersect are found by a tree over their boxes. Two segments are tested by exact predicates (crate `geo`); with arcs the test is within
+//! rounding. Rings that intersect are cut there, and each part is classified as inside or outside the other ring by winding numbers. Not detected: holes that
+//! touch so that they divide the polygon into several parts, which is harmless here.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,28 +17,28 @@ use crate::geometry::tree::Tree;
 use crate::geometry::winding::Winding;
 use crate::math::{Bounds, Vec2};
 
-/// Points nearer than this share of the size of the polygon are one, where arcs are involved.
+/// Points nearer than this fraction of the polygon's size coincide, if arcs are involved.
 const ROUNDING: f64 = 1e-12;
 
-/// Neighboring edges of which one is an arc meet at their common vertex up to this share of the shorter one: where they are tangent there,
-/// the computed crossing is ill-conditioned.
+/// Neighboring edges of which one is an arc meet at their common vertex within this fraction of the shorter one: where they are tangent there, the computed
+/// intersection is ill-conditioned.
 const AT_VERTEX: f64 = 1e-3;
 
-/// What is wrong with the rings; ring 0 is the outer one. Places in m.
+/// Faults of rings; ring 0 is the outer one. Positions in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum RingFault {
-    /// Two edges of a ring, by the number of the point at which they begin, meet elsewhere than at a common end.
+    /// Two edges of a ring, by the index of their start, intersect elsewhere than at a common end.
     SelfIntersection { ring: usize, edges: [usize; 2], at: Vec2 },
-    /// A hole is not within the outer ring.
+    /// A hole is not inside the outer ring.
     NotContained { hole: usize, at: Vec2 },
-    /// Two rings run along each other.
+    /// Two rings coincide along a line.
     OnALine { rings: [usize; 2], at: Vec2 },
-    /// One hole reaches into another.
+    /// One hole overlaps another.
     OnAnArea { rings: [usize; 2], at: Vec2 },
 }
 
 impl RingFault {
-    /// The rings it is between.
+    /// The rings involved.
     fn rings(&self) -> [usize; 2] {
         match *self {
             Self::SelfIntersection { ring, .. } => [ring; 2],
@@ -80,14 +80,14 @@ impl std::fmt::Display for RingFault {
     }
 }
 
-/// All that is wrong between rings of two edges or more without double points: the first fault of each ring and of each pair of rings.
+/// All faults of rings of two edges or more without duplicate points: the first one of each ring and of each pair of rings.
 pub(crate) fn faults(rings: &[Vec<Curve>]) -> Vec<RingFault> {
     let edges = Edges::of(rings);
     let mut found: Vec<RingFault> = (0..rings.len()).filter_map(|ring| edges.self_intersection(ring)).collect();
     if rings.len() > 1 && found.is_empty() {
         let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
         let boxes = Tree::over(regions.iter().map(|region| region.curves.bounds()));
-        // A pair of holes is seen from both sides.
+        // A pair of holes is visited from both sides.
         let mut known = BTreeSet::new();
         for hole in 1..rings.len() {
             let all = edges.faults_of_hole(hole, &regions, &boxes);
@@ -97,7 +97,7 @@ pub(crate) fn faults(rings: &[Vec<Curve>]) -> Vec<RingFault> {
     found
 }
 
-/// All places where edges of the rings meet elsewhere than at a common vertex.
+/// All intersections of edges of the rings elsewhere than at a common vertex.
 pub(crate) fn meetings(rings: &[Vec<Curve>]) -> Vec<Vec2> {
     let all = Edges::of(rings);
     let mut found = Vec::new();
@@ -105,29 +105,29 @@ pub(crate) fn meetings(rings: &[Vec<Curve>]) -> Vec<Vec2> {
         for (i, edge) in own.iter().enumerate() {
             for (other, j) in all.near(edge).filter(|&near| near > (ring, i)) {
                 let is_own = other == ring;
-                found.extend(if is_own { all.meeting(own, i, j) } else { all.first_place(edge, &rings[other][j]) });
+                found.extend(if is_own { all.meeting(own, i, j) } else { all.first_point(edge, &rings[other][j]) });
             }
         }
     }
     found
 }
 
-/// The first two rings that cross, and where: each has a part within the other one and a part outside of it. Rings that touch, and rings within
-/// others, do not.
+/// The first two rings that cross, and where: each has a part inside the other one and a part outside of it. Rings that touch, and nested rings, do not
+/// cross.
 pub(crate) fn crossing(rings: &[Vec<Curve>]) -> Option<([usize; 2], Vec2)> {
     let edges = Edges::of(rings);
     let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
     (0..rings.len()).find_map(|number| edges.crossings(number, &regions).into_iter().next())
 }
 
-/// All pairs of rings that cross, with a place of each.
+/// All pairs of rings that cross, with a point of each.
 pub(crate) fn crossings(rings: &[Vec<Curve>]) -> Vec<([usize; 2], Vec2)> {
     let edges = Edges::of(rings);
     let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
     (0..rings.len()).flat_map(|number| edges.crossings(number, &regions)).collect()
 }
 
-/// What is enclosed by one ring.
+/// The area enclosed by one ring.
 struct Region {
     curves: CurveSet,
     winding: Winding,
@@ -154,7 +154,7 @@ impl<'a> Edges<'a> {
             rings.iter().enumerate().flat_map(|(ring, edges)| (0..edges.len()).map(move |edge| (ring, edge))).collect();
         let boxes: Vec<Bounds> = rings.iter().flatten().map(Curve::bounds).collect();
         let all = boxes.iter().copied().reduce(|a, b| a.united(&b));
-        // Far from the origin coordinates are rounded more coarsely than the shape is large.
+        // Far from the origin the rounding of coordinates exceeds that of the size of the shape.
         let tolerance = all.map_or(0.0, |all| {
             ROUNDING * all.size().max() + 8.0 * f64::EPSILON * all.min.abs().sup(&all.max.abs()).max()
         });
@@ -162,16 +162,16 @@ impl<'a> Edges<'a> {
         Self { rings, owner, tree, tolerance }
     }
 
-    /// Edges whose box meets that of `curve`, in order.
+    /// Edges whose box overlaps that of `curve`, in order.
     fn near(&self, curve: &Curve) -> impl Iterator<Item = (usize, usize)> {
         self.tree.near_in_order(curve.bounds().grown(self.tolerance)).into_iter().map(|index| self.owner[index])
     }
 
-    /// The rings behind this one that it crosses.
+    /// The later rings that cross this one.
     fn crossings(&self, number: usize, regions: &[Region]) -> Vec<([usize; 2], Vec2)> {
         let mut found: BTreeMap<usize, Vec2> = BTreeMap::new();
-        // By other ring, whether a part of this one was seen within it and outside of it.
-        let mut seen: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
+        // By other ring, whether this one has parts inside it and outside it.
+        let mut parts: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
         for edge in &self.rings[number] {
             let near: Vec<(usize, usize)> = self.near(edge).filter(|&(other, _)| other > number).collect();
             let others: BTreeSet<usize> = near.iter().map(|&(other, _)| other).collect();
@@ -182,7 +182,7 @@ impl<'a> Edges<'a> {
                     if regions[other].curves.distance(x) <= self.tolerance {
                         continue;
                     }
-                    let both = seen.entry(other).or_default();
+                    let both = parts.entry(other).or_default();
                     both[usize::from(regions[other].winding.turns(x).abs() > 0.5)] = true;
                     if *both == [true; 2] {
                         found.entry(other).or_insert_with(|| part.point(0.0));
@@ -204,7 +204,7 @@ impl<'a> Edges<'a> {
         })
     }
 
-    /// Where edges `i` < `j` of a ring meet elsewhere than at a common vertex.
+    /// The intersection of edges `i` < `j` of a ring elsewhere than at a common vertex.
     fn meeting(&self, edges: &[Curve], i: usize, j: usize) -> Option<Vec2> {
         let (a, b) = (&edges[i], &edges[j]);
         let vertices: Vec<Vec2> =
@@ -213,29 +213,29 @@ impl<'a> Edges<'a> {
                 .flatten()
                 .collect();
         if let (Curve::Segment { a: p, b: q }, Curve::Segment { a: r, b: s }) = (a, b) {
-            // Neighbors that turn back along each other show where the next edge meets them.
+            // Neighbors that fold back on each other are detected by the next edge.
             let do_meet = vertices.is_empty() && line(*p, *q).intersects(&line(*r, *s));
-            return do_meet.then(|| self.first_place(a, b).unwrap_or(*r));
+            return do_meet.then(|| self.first_point(a, b).unwrap_or(*r));
         }
         let near_vertex = AT_VERTEX * a.length().min(b.length());
-        let mut places = Vec::new();
-        meeting_places(a, b, self.tolerance, &mut places);
+        let mut parameters = Vec::new();
+        meeting_places(a, b, self.tolerance, &mut parameters);
         let away = |x: &Vec2| vertices.iter().all(|vertex| (x - vertex).norm() > near_vertex);
-        places.into_iter().map(|u| a.point(u)).find(away)
+        parameters.into_iter().map(|u| a.point(u)).find(away)
     }
 
-    fn first_place(&self, a: &Curve, b: &Curve) -> Option<Vec2> {
-        let mut places = Vec::new();
-        meeting_places(a, b, self.tolerance, &mut places);
-        places.into_iter().min_by(f64::total_cmp).map(|u| a.point(u))
+    fn first_point(&self, a: &Curve, b: &Curve) -> Option<Vec2> {
+        let mut parameters = Vec::new();
+        meeting_places(a, b, self.tolerance, &mut parameters);
+        parameters.into_iter().min_by(f64::total_cmp).map(|u| a.point(u))
     }
 
-    /// What is wrong between a hole and the other rings, holes before it left out.
+    /// Faults between a hole and the other rings, except previous holes.
     fn faults_of_hole(&self, hole: usize, regions: &[Region], boxes: &Tree) -> Vec<RingFault> {
         let mut found: Vec<(usize, RingFault)> = Vec::new();
         for (number, edge) in self.rings[hole].iter().enumerate() {
             let near: Vec<(usize, usize)> = self.near(edge).filter(|&(ring, _)| ring != hole).collect();
-            // A hole that meets no other ring is told in or out as a whole, by its first edge.
+            // A hole that intersects no other ring is classified as a whole, by its first edge.
             let mut rings: Vec<usize> = near.iter().map(|&(ring, _)| ring).collect();
             if number == 0 {
                 let start = edge.point(0.0);
@@ -257,7 +257,7 @@ impl<'a> Edges<'a> {
         found.into_iter().map(|(_, fault)| fault).collect()
     }
 
-    /// What is wrong where `x` on a hole lies in, on or out of another ring.
+    /// The fault if `x` on a hole lies in, on or outside another ring.
     fn fault(&self, hole: usize, ring: usize, region: &Region, x: Vec2) -> Option<RingFault> {
         let rings = [ring.min(hole), ring.max(hole)];
         if region.curves.distance(x) <= self.tolerance {
@@ -296,7 +296,7 @@ mod tests {
     #[test]
     fn sound_rings_have_no_fault_even_where_they_touch_at_a_point() {
         let lens = ring(&[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5]]);
-        // A half circle that runs on smoothly into straight sides, and a crescent whose tips have no width.
+        // A half circle tangent to straight sides, and a crescent with cusps.
         let stadium = ring(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 1.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 1.0]]);
         let crescent = ring(&[[0.0, -1.0, 1.0], [0.0, 1.0, -0.6]]);
         for sound in [lens, stadium, crescent, square(0.0, 0.0, 1.0)] {
@@ -316,7 +316,7 @@ mod tests {
         // The arc of the first edge bulges far enough to cross the opposite side.
         let arc = ring(&[[0.0, 0.0, -1.0], [2.0, 0.0, 0.0], [2.0, 0.5, 0.0], [0.0, 0.5, 0.0]]);
         assert!(matches!(faults(&[arc])[..], [RingFault::SelfIntersection { ring: 0, edges: [0, 2], .. }]));
-        // Two arcs that cross between their common ends cannot be: they share both; an arc and its neighbor can.
+        // Two arcs cannot cross between two common ends; an arc and its neighbor can.
         let neighbors = ring(&[[0.0, 0.0, -2.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 0.0]]);
         assert!(matches!(faults(&[neighbors])[..], [RingFault::SelfIntersection { .. }]));
         let spike = ring(&[
@@ -353,14 +353,14 @@ mod tests {
         let with = |other: Vec<Curve>| crossing(&[outer.clone(), other]);
         assert_eq!(with(square(9.0, 9.0, 1.0)), None);
         assert_eq!(with(square(1.0, 1.0, 1.0)), None);
-        // On a side, at a corner, within and along a side.
+        // On a side, at a corner, inside and along a side.
         assert_eq!(with(square(4.0, 1.0, 1.0)), None);
         assert_eq!(with(square(4.0, 4.0, 1.0)), None);
         assert_eq!(with(square(3.0, 1.0, 1.0)), None);
         let (rings, at) = with(square(3.0, 3.0, 2.0)).unwrap();
         assert!(rings == [0, 1] && (at - Vec2::new(4.0, 3.0)).norm() < 1e-12, "{rings:?} {at}");
         assert!(with(hole(square(-1.0, 1.0, 2.0))).is_some());
-        // Through vertices alone.
+        // Through vertices only.
         let diamond = ring(&[[4.0, -4.0, 0.0], [8.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 0.0, 0.0]]);
         assert!(with(diamond).is_some());
     }
@@ -378,9 +378,10 @@ mod tests {
                 };
                 (0..n).map(at).collect()
             };
-            let place = |seed: usize| Vec2::new(random(seed) - 0.5, random(seed + 1) - 0.5);
+            let position = |seed: usize| Vec2::new(random(seed) - 0.5, random(seed + 1) - 0.5);
             let outer = outline(8, 1000 * trial, Vec2::zeros(), 1.0);
-            let holes = [1, 2].map(|h| outline(4, 1000 * trial + 200 * h, place(1000 * trial + 300 * h) * 0.6, 0.25));
+            let holes =
+                [1, 2].map(|h| outline(4, 1000 * trial + 200 * h, position(1000 * trial + 300 * h) * 0.6, 0.25));
             let line_string = |points: &[[f64; 2]]| geo::LineString::from(points.to_vec());
             let polygon = geo::Polygon::new(line_string(&outer), holes.iter().map(|h| line_string(h)).collect());
             let bulged = |points: &[[f64; 2]]| ring(&points.iter().map(|p| [p[0], p[1], 0.0]).collect::<Vec<_>>());

@@ -1,6 +1,6 @@
 //! Shape files of other programs: lists of discs, well-known text, GeoJSON, shapefiles, SVG, DXF, masks.
 //!
-//! Our own TOML shape files are read by the case module, which knows places in TOML.
+//! Our own TOML shape files are read by the case module, which keeps source locations in TOML.
 
 use std::path::{Path, PathBuf};
 
@@ -23,19 +23,19 @@ pub enum ShapeFileError {
         /// The system's reason.
         source: std::io::Error,
     },
-    /// The name's ending is not one of ours.
+    /// The file extension is unknown.
     #[error("the shape file {} ends in none of .toml (shapes), .xyr, .discs, .txt, .csv (discs), .wkt, .geojson, .json, .shp, .svg, .dxf (drawings), .png, .tif, .tiff (masks)", path.display())]
     Ending {
         /// Absolute path.
         path: PathBuf,
     },
-    /// A TOML file came here by mistake: the case module reads those.
+    /// A TOML file, which the case module should read.
     #[error("{} is a TOML shape file, which the case reader has to read", path.display())]
     Toml {
         /// Absolute path.
         path: PathBuf,
     },
-    /// Keys beside the file are missing or wrong.
+    /// Keys besides the file are missing or invalid.
     #[error("{}: {}", path.display(), join(problems))]
     Keys {
         /// Absolute path.
@@ -43,7 +43,7 @@ pub enum ShapeFileError {
         /// The problems; their paths are keys, such as `unit`.
         problems: Vec<Problem>,
     },
-    /// Some parts cannot be read: all of them.
+    /// Parts of the file cannot be read: all of them.
     #[error("{}: {} mistake(s)\n{}", path.display(), refusals.len(), join(refusals))]
     Parts {
         /// Absolute path.
@@ -51,7 +51,7 @@ pub enum ShapeFileError {
         /// The parts in order.
         refusals: Vec<Refusal>,
     },
-    /// Every part reads well, but the shapes make no sense.
+    /// Every part can be read, but the shapes are invalid.
     #[error("{}: {} problem(s)\n{}", path.display(), problems.len(), join(problems))]
     Shapes {
         /// Absolute path.
@@ -65,10 +65,10 @@ fn join<T: ToString>(items: &[T]) -> String {
     items.iter().map(|item| format!("  {}", item.to_string())).collect::<Vec<_>>().join("\n")
 }
 
-/// Reads a shape file, chosen by its ending; the result has no problems.
+/// Reads a shape file, by its extension; the result has no problems.
 ///
 /// # Errors
-/// See [`ShapeFileError`]; all bad parts are named at once.
+/// See [`ShapeFileError`]; all invalid parts are reported at once.
 pub fn load(path: &Path, options: &Options) -> Result<Imported, ShapeFileError> {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let format = match Format::of(&path) {

@@ -1,8 +1,8 @@
 //! The pore geometry: signed distance to the solid, its normal, and the domain.
 //!
-//! The surface of the solid is kept as exact segments and circular arcs (the cosine wall to 1e-8 of its length), so that
-//! distances are exact in the pore and in the solid, overlaps included. Endless shapes in a periodic domain are repeated
-//! as their part within the domain; all others are repeated whole.
+//! The surface of the solid is represented by exact segments and circular arcs (the cosine wall to 1e-8 of its length), so that distances are exact in the
+//! pore and in the solid, overlaps included. Infinite shapes in a periodic domain are repeated as their part within the domain; all others are repeated as a
+//! whole.
 
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Boundary, Nearest, clip_body, complement, union};
@@ -13,32 +13,32 @@ use crate::geometry::tree::Tree;
 use crate::input::problem::Problem;
 use crate::math::{Bounds, FNV1A_BASIS, Vec2, fnv1a};
 
-/// Lengths below this share of the domain's larger side count as zero where curves meet.
+/// Lengths below this fraction of the domain's larger side count as zero at intersections.
 const TOLERANCE: f64 = 1e-9;
-/// Ends that are nearer than so many of these are one: they come from intersections computed twice, once on each curve.
+/// Ends nearer than this many tolerances coincide: intersections are computed twice, once on each curve.
 const ROUNDING: f64 = 10.0;
 
 /// The wall nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
-    /// Distance to the wall in m, above 0 in the pore; infinite where there is no solid.
+    /// Distance to the wall in m, above 0 in the pore; infinite without solid.
     pub distance: f64,
-    /// Unit normal into the pore, the gradient of the distance; zero where there is no solid.
+    /// Unit normal into the pore, the gradient of the distance; zero without solid.
     pub normal: Vec2,
-    /// Index of the nearest shape; walls on the domain's sides come after the shapes of the file; `u32::MAX`: none.
+    /// Index of the nearest shape; walls on the domain's sides follow the shapes of the file; `u32::MAX` for none.
     pub shape: u32,
 }
 
-/// What is wrong with a geometry.
+/// Why a geometry is invalid.
 #[derive(Debug, thiserror::Error)]
 pub enum GeometryError {
-    /// The written shapes make no sense.
+    /// The specified shapes are invalid.
     #[error("the geometry has {} problem(s): {}", .0.len(), list(.0))]
     Invalid(Vec<Problem>),
 }
 
 impl GeometryError {
-    /// The problems with their places in a case file, where the shapes are those of its `[geometry]`.
+    /// The problems with their paths in a case file, where the shapes are those of its `[geometry]`.
     pub(crate) fn problems_of_case(&self) -> Vec<Problem> {
         let Self::Invalid(problems) = self;
         problems.iter().map(|one| Problem { path: format!("geometry.{}", one.path), ..one.clone() }).collect()
@@ -49,15 +49,15 @@ fn list(problems: &[Problem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
-/// Whether two normals are one: pieces that join at the nearest point have one normal there, up to rounding.
+/// Whether two normals agree: pieces that join at the nearest point have the same normal there, up to rounding.
 fn is_same(a: &Vec2, b: &Vec2) -> bool {
     const SAME: f64 = 1e-6;
     (a - b).norm() <= SAME
 }
 
-/// The normals that differ.
+/// The distinct normals.
 fn different(mut normals: Vec<Vec2>) -> Vec<Vec2> {
-    // Of more than these each is compared with its neighbors in angle only: from the center of a round ring all its edges are equally near.
+    // Beyond this number each is compared with its neighbors in angle only: all edges of a circular ring are equally near to its center.
     const MANY: usize = 64;
     if normals.len() > MANY {
         normals.sort_by(|a, b| a.y.atan2(a.x).total_cmp(&b.y.atan2(b.x)));
@@ -109,7 +109,7 @@ impl Geometry {
         if problems.is_empty() { Ok(Self::unchecked(spec)) } else { Err(GeometryError::Invalid(problems)) }
     }
 
-    /// The geometry of a specification whose sizes are known to be good.
+    /// The geometry of a specification whose sizes are known to be valid.
     pub(crate) fn unchecked(spec: &GeometrySpec) -> Self {
         let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
         let shapes = spec.shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, domain)).collect();
@@ -128,10 +128,10 @@ impl Geometry {
         .rebuilt()
     }
 
-    /// The solid whose whole surface is known: `pieces` with the solid on their left, which end nowhere but at the sides of the domain. Repeated by
-    /// whole periods where the domain is joined along x or y; at other sides the surface goes on straight outwards.
+    /// The solid with a given surface: `pieces` with the solid on their left, which end only at the sides of the domain. Repeated by whole periods if the
+    /// domain is periodic along x or y; at other sides the surface continues straight outwards.
     ///
-    /// Questions are answered by the nearest piece alone, so that they make sense in the domain and near it.
+    /// Queries use the nearest piece only, so that they are valid in the domain and near it.
     pub fn of_surface(domain: Bounds, periodic: [bool; 2], pieces: &[Curve]) -> Self {
         let spec = GeometrySpec {
             min: domain.min.into(),
@@ -145,7 +145,7 @@ impl Geometry {
         empty
     }
 
-    /// A hash of the domain and of the written shapes, bit by bit (FNV-1a); what stands at the sides does not matter.
+    /// A hash of the domain and of the specified shapes, bit by bit (FNV-1a); independent of the sides.
     pub(crate) fn hash(&self) -> u64 {
         let side = f64::from(self.side == SolidSide::Inside);
         let corners = [self.domain.min.x, self.domain.min.y, self.domain.max.x, self.domain.max.y, side];
@@ -159,34 +159,34 @@ impl Geometry {
         self.domain
     }
 
-    /// Number of written shapes; walls on the left, right, bottom and top side have the four indices that follow.
+    /// Number of specified shapes; walls on the left, right, bottom and top side have the four following indices.
     pub(crate) fn shape_count(&self) -> u32 {
         self.shape_count
     }
 
-    /// Whether the domain is joined along x and y.
+    /// Whether the domain is periodic along x and y.
     pub(crate) fn periodic(&self) -> [bool; 2] {
         self.periodic
     }
 
-    /// Whether solid stands outside of the left, right, bottom and top side.
+    /// Whether there is solid outside the left, right, bottom and top side.
     pub(crate) fn wall_sides(&self) -> [bool; 4] {
         self.wall_sides
     }
 
-    /// The same solids with both: periodic along x and y, and solid outside of the chosen sides (left, right, bottom, top).
+    /// The same solids with both: periodic along x and y, and solid outside the chosen sides (left, right, bottom, top).
     pub fn with_sides(self, periodic: [bool; 2], wall_sides: [bool; 4]) -> Self {
         let is_same = self.periodic == periodic && self.wall_sides == wall_sides;
         if is_same { self } else { Self { periodic, wall_sides, ..self }.rebuilt() }
     }
 
-    /// The same solids seen through the periodic images of the domain along x and y.
+    /// The same solids with the periodic images of the domain along x and y.
     pub fn with_periodic(self, periodic: [bool; 2]) -> Self {
         let wall_sides = self.wall_sides;
         self.with_sides(periodic, wall_sides)
     }
 
-    /// The same solids and solid half-planes outside of the chosen sides: left, right, bottom, top.
+    /// The same solids with solid half-planes outside the chosen sides: left, right, bottom, top.
     pub fn with_wall_sides(self, wall_sides: [bool; 4]) -> Self {
         let periodic = self.periodic;
         self.with_sides(periodic, wall_sides)
@@ -211,8 +211,8 @@ impl Geometry {
         self
     }
 
-    /// The body and its periodic images that can be nearest to a point of the domain: those that reach into the domain
-    /// grown by its own size (the nearest point of a periodic solid is never farther than half a period along that axis).
+    /// The body and its periodic images that can be nearest to a point of the domain: those that reach into the domain grown by its own size (the nearest
+    /// point of a periodic solid is at most half a period away along that axis).
     fn images(&self, body: &Body) -> Vec<Body> {
         if self.periodic == [false; 2] {
             return vec![body.clone()];
@@ -220,7 +220,7 @@ impl Geometry {
         let size = self.domain.size();
         let mut body = body.clone();
         if body.is_endless() {
-            // Far beyond all queries along the axis that is not periodic.
+            // Far beyond all queries along the non-periodic axis.
             const FAR: f64 = 32.0;
             let mut strip = self.domain.grown(FAR * size.norm());
             for i in (0..2).filter(|&i| self.periodic[i]) {
@@ -247,7 +247,7 @@ impl Geometry {
     fn side_walls(&self) -> Vec<Body> {
         use std::f64::consts::{FRAC_PI_2, PI};
         let Bounds { min, max } = self.domain;
-        // A half-plane is solid below its line before the turn.
+        // An unrotated half-plane is solid below its line.
         [(min, -FRAC_PI_2), (max, FRAC_PI_2), (min, 0.0), (max, PI)]
             .into_iter()
             .enumerate()
@@ -256,7 +256,7 @@ impl Geometry {
             .collect()
     }
 
-    /// `x` brought into the domain along the periodic axes.
+    /// `x` wrapped into the domain along the periodic axes.
     pub(crate) fn wrapped(&self, x: Vec2) -> Vec2 {
         let (min, size) = (self.domain.min, self.domain.size());
         let mut y = x;
@@ -268,7 +268,7 @@ impl Geometry {
         y
     }
 
-    /// Whether `x` lies in the solid, told by the shapes themselves.
+    /// Whether `x` lies in the solid, by the inside tests of the shapes.
     pub fn is_solid(&self, x: Vec2) -> bool {
         let x = self.wrapped(x);
         let within = |body: &Body| body.bounds.contains(x) && body.signed_distance(x) < 0.0;
@@ -276,10 +276,10 @@ impl Geometry {
         (in_shapes == (self.side == SolidSide::Inside)) || self.walls.iter().any(within)
     }
 
-    /// Distance and normal of the nearest wall at `x`. Exact up to a box's size outside of the domain.
+    /// Distance and normal of the nearest wall at `x`. Exact up to a box's size outside the domain.
     ///
-    /// Where several walls are equally near, as on a corner or on the line that halves a concave one, the normal is the mean of
-    /// theirs, so that no side is preferred; between opposite walls, where that mean vanishes, it is the normal of one of them.
+    /// Where several walls are equally near, as on a corner or on the bisector of a reentrant one, the normal is the mean of theirs, so that no side is
+    /// preferred; between opposite walls, where that mean vanishes, it is the normal of one of them.
     pub fn wall(&self, x: Vec2) -> Wall {
         let x = self.wrapped(x);
         let wall = self.nearest_wall(x);
@@ -294,10 +294,9 @@ impl Geometry {
         }
     }
 
-    /// The mean of the different normals of all walls that are as near to `x` as `nearest`; none where there is but one, or
-    /// where they cancel.
+    /// The mean of the distinct normals of all walls that are as near to `x` as `nearest`; `None` if there is only one, or if they cancel.
     fn mean_normal(&self, x: Vec2, nearest: &Wall) -> Option<Vec2> {
-        // Opposite walls; less than any wedge that particles fit into.
+        // Opposite walls; below the value for any wedge accessible to particles.
         const CANCELED: f64 = 1e-3;
         if !nearest.distance.is_finite() {
             return None;
@@ -325,7 +324,7 @@ impl Geometry {
             return Wall { distance: 0.0, normal: flat, shape };
         }
         let in_pore = match corner {
-            // The nearest corner is seen within the cone of its two normals, or within the opposite cone.
+            // Relative to the nearest corner, `x` lies in the cone of its two normals, or in the opposite cone.
             Some(mean) => offset.dot(&mean) > 0.0,
             None => !self.is_solid(x),
         };

@@ -1,4 +1,4 @@
-//! Shapes as a user writes them, in a shape file or in a case: the table's name is the shape's name.
+//! Shapes as specified by a user, in a shape file or in a case: the table's name is the shape's name.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,17 +29,17 @@ pub enum ShapeSpec {
     ThroatDiscs(ThroatDiscs),
     /// A channel with a cosine constriction.
     ThroatCosine(ThroatCosine),
-    /// Discs at random places, made from a seed when the file is read.
+    /// Discs at random positions, generated from a seed when the file is read.
     RandomPack(RandomPack),
-    /// Discs in a regular array, made when the file is read.
+    /// Discs in a regular array, generated when the file is read.
     Array(Array),
 }
 
 /// A length above 0.
 const SIZE: Key = Key::positive("a length in m");
 
-/// Declares shapes: fields with what their keys may hold, like [`tables!`](crate::input::tables::tables), all of them required but for those with a
-/// default of serde.
+/// Declares shapes: fields with the ranges of their keys, like [`tables!`](crate::input::tables::tables), all of them required except those with a serde
+/// default.
 macro_rules! shapes {
     ($($(#[$outer:meta])* pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)* })*) => {$(
         $(#[$outer])*
@@ -49,18 +49,18 @@ macro_rules! shapes {
         pub struct $name { $($(#[$inner])* pub $field: $kind,)* }
 
         impl $name {
-            /// Its fields and what they may hold.
+            /// Its fields and the ranges of their keys.
             pub(crate) const KEYS: &'static [(&'static str, Key)] = &[$((stringify!($field), tables!(@key $($key)?)),)*];
         }
     )*};
 }
 
 shapes! {
-    /// The half-plane below the line through `point`; `rotation-deg` turns it counter-clockwise about `point`.
+    /// The half-plane below the line through `point`; `rotation-deg` rotates it counter-clockwise about `point`.
     pub struct HalfPlane {
         /// A point of the surface in m.
         pub point: [f64; 2],
-        /// Turn about `point` in degrees; 0: solid below, 180: solid above, 90: solid on the right.
+        /// Rotation about `point` in degrees; 0: solid below, 180: solid above, 90: solid on the right.
         #[serde(default)]
         pub rotation_deg: f64,
     }
@@ -79,7 +79,7 @@ shapes! {
         pub center: [f64; 2],
         /// Width and height in m, above 0.
         pub size: [f64; 2] => SIZE,
-        /// Turn about the center in degrees.
+        /// Rotation about the center in degrees.
         #[serde(default)]
         pub rotation_deg: f64,
     }
@@ -92,33 +92,33 @@ shapes! {
         pub radius: f64 => SIZE,
     }
 
-    /// A polygon: the outer ring counter-clockwise, holes clockwise, no ring closed by repeating its first point.
+    /// A polygon: the outer ring counter-clockwise, holes clockwise, without repetition of the first point.
     pub struct Polygon {
         /// Outer ring in m, at least three points.
         pub outer: Vec<[f64; 2]>,
         /// Holes in m.
         #[serde(default)]
         pub holes: Vec<Vec<[f64; 2]>>,
-        /// Shift in m, after the turn.
+        /// Shift in m, after the rotation.
         #[serde(default)]
         pub position: [f64; 2],
-        /// Turn about the origin of the ring's coordinates in degrees.
+        /// Rotation about the origin of the ring's coordinates in degrees.
         #[serde(default)]
         pub rotation_deg: f64,
     }
 
-    /// A polygon of segments and circular arcs: each vertex is `[x, y, bulge]` with the bulge of the edge that begins there, the tangent
-    /// of a quarter of its arc's angle: 0 straight, 1 a half circle that turns counter-clockwise, below 0 clockwise.
+    /// A polygon of segments and circular arcs: each vertex is `[x, y, bulge]` with the bulge of the edge that starts there, the tangent of a quarter of its
+    /// arc's angle: 0 straight, 1 a counter-clockwise half circle, below 0 clockwise.
     pub struct CurvedPolygon {
         /// Outer ring counter-clockwise, x and y in m, at least two vertices.
         pub outer: Vec<[f64; 3]>,
         /// Holes, clockwise.
         #[serde(default)]
         pub holes: Vec<Vec<[f64; 3]>>,
-        /// Shift in m, after the turn.
+        /// Shift in m, after the rotation.
         #[serde(default)]
         pub position: [f64; 2],
-        /// Turn about the origin of the ring's coordinates in degrees.
+        /// Rotation about the origin of the ring's coordinates in degrees.
         #[serde(default)]
         pub rotation_deg: f64,
     }
@@ -127,69 +127,69 @@ shapes! {
     pub struct Channel {
         /// A point of the center line in m.
         pub center: [f64; 2],
-        /// Distance of the plates in m, above 0.
+        /// Distance between the plates in m, above 0.
         pub width: f64 => SIZE,
-        /// Turn of the center line in degrees; 0 runs along x.
+        /// Rotation of the center line in degrees; 0 is along x.
         #[serde(default)]
         pub rotation_deg: f64,
     }
 
-    /// Two discs of equal or different radius with a gap between them, the flow along x before the turn.
+    /// Two discs of equal or different radius with a gap between them, the flow along x before the rotation.
     pub struct ThroatDiscs {
-        /// Middle of the gap in m.
+        /// Center of the gap in m.
         pub center: [f64; 2],
         /// Radii of the lower and the upper disc in m, above 0.
         pub radii: [f64; 2] => SIZE,
-        /// Narrowest distance between the discs in m, above 0.
+        /// Smallest distance between the discs in m, above 0.
         pub gap: f64 => SIZE,
-        /// Turn about the center in degrees.
+        /// Rotation about the center in degrees.
         #[serde(default)]
         pub rotation_deg: f64,
     }
 
     /// Walls at `+-(1/2) (width - (width - throat) (1 + cos(2 pi s/length))/2)` for |s| < length/2 along the axis, straight beyond.
     pub struct ThroatCosine {
-        /// Middle of the throat in m.
+        /// Center of the throat in m.
         pub center: [f64; 2],
-        /// Distance of the walls away from the throat in m.
+        /// Distance between the walls away from the throat in m.
         pub width: f64 => SIZE,
-        /// Distance of the walls in the throat in m, above 0 and at most `width`.
+        /// Distance between the walls in the throat in m, above 0 and at most `width`.
         pub throat: f64 => SIZE,
         /// Length of the constriction along the axis in m.
         pub length: f64 => SIZE,
-        /// Turn about the center in degrees; 0: axis along x.
+        /// Rotation about the center in degrees; 0: axis along x.
         #[serde(default)]
         pub rotation_deg: f64,
     }
 
-    /// Discs at random places with a given porosity; read as so many discs.
+    /// Discs at random positions with a given porosity; expanded to discs when read.
     pub struct RandomPack {
-        /// Chooses the pack; the same on every machine.
+        /// Seed of the pack; the same pack on every machine.
         #[serde(default = "first_seed")]
         pub seed: u64,
-        /// Share of the region that is not solid, 0 to 1.
+        /// Fraction of the region that is not solid, 0 to 1.
         pub porosity: f64 => Key::number("a porosity", Range::Between(0.0, 1.0)),
-        /// Mean radius in m; all radii are scaled together by some percent at most to meet the porosity.
+        /// Mean radius in m; all radii are scaled together by a few percent at most to meet the porosity.
         pub radius: f64 => SIZE,
         /// Standard deviation of the radii over their mean, 0 to 0.35.
         #[serde(default)]
         pub radius_deviation: f64 => Key::within("a share", 0.0, 0.35),
-        /// Smallest distance of two discs, and of a disc from the region's sides, in m.
+        /// Smallest distance between two discs, and between a disc and the region's sides, in m.
         pub gap: f64 => SIZE,
         /// Lower left and upper right corner in m.
         pub region: [[f64; 2]; 2],
-        /// Axes along which the region repeats itself: discs may cross these sides.
+        /// Axes along which the region is periodic: discs may cross these sides.
         #[serde(default)]
         pub periodic: PackAxes,
     }
 
-    /// Equal discs in a regular array, as many as fit wholly into the region; read as so many discs.
+    /// Equal discs in a regular array, as many as fit completely into the region; expanded to discs when read.
     pub struct Array {
         /// Square or hexagonal.
         pub arrangement: Arrangement,
         /// Radius in m.
         pub radius: f64 => SIZE,
-        /// Smallest distance of two discs in m.
+        /// Smallest distance between two discs in m.
         pub gap: f64 => SIZE,
         /// Lower left and upper right corner in m.
         pub region: [[f64; 2]; 2],
@@ -200,7 +200,7 @@ fn first_seed() -> u64 {
     1
 }
 
-/// Axes along which a pack repeats itself.
+/// Axes along which a pack is periodic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PackAxes {
@@ -222,17 +222,17 @@ impl PackAxes {
     }
 }
 
-/// How the discs of an array lie.
+/// Arrangements of the discs of an array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Arrangement {
-    /// On the corners of squares.
+    /// At the corners of squares.
     Square,
-    /// On the corners of equal triangles, rows along x.
+    /// At the corners of equilateral triangles, rows along x.
     Hexagonal,
 }
 
-/// What the shapes of a file are: grains in a fluid, or the pore itself.
+/// Meaning of the shapes of a file: grains in a fluid, or the pore itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolidSide {
@@ -263,9 +263,9 @@ impl Value for ShapeSpec {}
 impl Value for SolidSide {}
 
 impl GeometrySpec {
-    /// A hash of the domain and of all shapes as they are written.
+    /// A hash of the domain and of all shapes as specified.
     pub(crate) fn digest(&self) -> u64 {
-        // Numbers, words and lists of them can always be encoded.
+        // Numbers, strings and lists of them can always be encoded.
         let bytes = postcard::to_stdvec(self).unwrap_or_default();
         fnv1a(FNV1A_BASIS, bytes)
     }

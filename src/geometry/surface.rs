@@ -1,11 +1,11 @@
-//! A surface that is given as pieces: its images in a periodic domain, and how it goes on beyond the sides.
+//! A surface given by pieces: its images in a periodic domain, and its continuation beyond the sides.
 
 use crate::geometry::boundary::{Piece, followers};
 use crate::geometry::curve::Curve;
 use crate::math::{Bounds, Vec2};
 
-/// The pieces with all images that can be nearest to a point of the domain, and straight continuations outwards where one ends at a side.
-/// Ends closer than `tolerance` (m) are joined.
+/// The pieces with all images that can be nearest to a point of the domain, and straight continuations outwards from ends at a side. Ends closer than
+/// `tolerance` (m) are joined.
 pub(super) fn whole(domain: Bounds, periodic: [bool; 2], pieces: &[Curve], tolerance: f64) -> Vec<Piece> {
     let mut all: Vec<Piece> = pieces
         .iter()
@@ -32,7 +32,7 @@ pub(super) fn whole(domain: Bounds, periodic: [bool; 2], pieces: &[Curve], toler
     all
 }
 
-/// A piece and its images by whole periods that come within half a period of the domain: the nearest point of a periodic surface is never farther.
+/// A piece and its periodic images within half a period of the domain: the nearest point of a periodic surface is never farther.
 fn images(domain: Bounds, periodic: [bool; 2], piece: &Curve) -> Vec<Curve> {
     let (size, bounds) = (domain.size(), piece.bounds());
     let shifts = |axis: usize| -> Vec<f64> {
@@ -47,7 +47,7 @@ fn images(domain: Bounds, periodic: [bool; 2], piece: &Curve) -> Vec<Curve> {
     shifts(0).into_iter().flat_map(|dx| rows.iter().map(move |&dy| piece.shifted(Vec2::new(dx, dy)))).collect()
 }
 
-/// The outward normal of the side that a point lies on; none within the domain and at periodic sides.
+/// The outward normal of the side that contains a point; `None` within the domain and at periodic sides.
 fn outwards(domain: Bounds, periodic: [bool; 2], x: Vec2, tolerance: f64) -> Option<Vec2> {
     let sides = [
         (0, domain.min.x, -Vec2::x()),
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn a_surface_that_ends_at_an_open_side_goes_on_straight_beyond_it() {
-        // Solid above a line that leaves through both sides.
+        // Solid above a line that crosses both sides.
         let line = Curve::Segment { a: Vec2::new(0.0, 0.5), b: Vec2::new(2.0, 0.5) };
         let geometry = Geometry::of_surface(domain(), [false; 2], &[line]);
         for x in [-0.3, 0.4, 2.2] {

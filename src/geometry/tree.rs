@@ -1,7 +1,7 @@
-//! A tree of boxes: which of many things lie near a place, and which is nearest, in a time that grows with the logarithm of their number.
+//! A bounding volume hierarchy: items near a point, and the nearest one, in logarithmic time.
 //!
-//! It wraps parry's hierarchy of bounding volumes, and is the one search structure of this module: over bodies, over the curves of a
-//! body, over the pieces of a surface, and over the edges of rings. Things without end lie near every place and are kept beside the tree.
+//! It wraps parry's hierarchy of bounding volumes, and is the only search structure of this module: over bodies, the curves of a body, the pieces of a
+//! surface, and the edges of rings. Unbounded items are near every point and are kept outside the tree.
 
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
@@ -9,18 +9,18 @@ use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use crate::math::{Bounds, Vec2};
 
-/// A tree over things that are known by their index and box.
+/// A tree over items given by index and box.
 #[derive(Clone)]
 pub(crate) struct Tree {
     bvh: Bvh,
-    /// The thing of each leaf.
+    /// The item of each leaf.
     leaves: Vec<u32>,
-    /// Things whose box has no end.
+    /// Items with an unbounded box.
     endless: Vec<u32>,
 }
 
 impl Tree {
-    /// The tree over things with these boxes, in m; an empty box (its least corner above its greatest) is never found.
+    /// The tree over items with these boxes, in m; an empty box (its lower corner above its upper one) is never found.
     pub(crate) fn over(boxes: impl IntoIterator<Item = Bounds>) -> Self {
         let (mut leaves, mut endless, mut finite) = (Vec::new(), Vec::new(), Vec::new());
         for (index, b) in (0_u32..).zip(boxes) {
@@ -35,7 +35,7 @@ impl Tree {
         Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &finite), leaves, endless }
     }
 
-    /// Things whose box shares a point with `near`, in the order of the tree.
+    /// Items whose box overlaps `near`, in tree order.
     pub(crate) fn near(&self, near: Bounds) -> impl Iterator<Item = usize> {
         let leaves = self.bvh.leaves(move |node| {
             let (min, max) = (node.mins(), node.maxs());
@@ -45,23 +45,23 @@ impl Tree {
         self.endless.iter().chain(finite).map(|&index| index as usize)
     }
 
-    /// The same things in the order of their index.
+    /// The same items in the order of their index.
     pub(crate) fn near_in_order(&self, near: Bounds) -> Vec<usize> {
         let mut found: Vec<usize> = self.near(near).collect();
         found.sort_unstable();
         found
     }
 
-    /// Things whose box comes within `reach` (m) of `x`, up to rounding, in the order of the tree.
+    /// Items whose box is within `reach` (m) of `x`, up to rounding, in tree order.
     pub(crate) fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = usize> {
-        // A hair more, so that rounding of a box hides nothing.
+        // Slightly enlarged, so that rounding of a box excludes nothing.
         let most = reach * reach * (1.0 + 1e-12);
         let leaves = self.bvh.leaves(move |node| squared_distance(x, node) <= most);
         let finite = leaves.filter_map(|leaf| self.leaves.get(leaf as usize));
         self.endless.iter().chain(finite).map(|&index| index as usize)
     }
 
-    /// The thing of least squared distance (m²) from `x` among those with an end, and that distance; `squared` tells it by index.
+    /// The bounded item with the smallest squared distance (m²) from `x`, and that distance; `squared` returns it by index.
     pub(crate) fn nearest(&self, x: Vec2, squared: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let of_leaf = |leaf: u32| self.leaves.get(leaf as usize).map(|&index| squared(index as usize));
         let (leaf, least) =

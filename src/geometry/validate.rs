@@ -1,6 +1,6 @@
-//! What can be wrong with written shapes: sizes, rings, and how the shapes lie in the domain. All problems, not the first.
+//! Validation of specified shapes: sizes, rings, and positions in the domain. All problems are reported, not only the first.
 //!
-//! Single points of rings are checked here; how rings cross and contain each other is told by `rings`.
+//! Individual points of rings are checked here; intersections and containment of rings in `rings`.
 
 use crate::geometry::body::{Body, Place, bulged_ring};
 use crate::geometry::boundary::split;
@@ -13,14 +13,14 @@ use crate::geometry::spec::{CurvedPolygon, GeometrySpec, Polygon, ShapeSpec, Sol
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
-/// An arc of a larger bulge is a full circle less a few millionths: its center is lost to rounding.
+/// An arc of a larger bulge is a full circle minus a few millionths: its center is lost to rounding.
 const LARGEST_BULGE: f64 = 1e6;
 
-/// A domain with less pore than this share of its area has none: it is rounding.
+/// A pore area below this fraction of the domain is rounding.
 const NO_PORE: f64 = 1e-9;
 
 impl GeometrySpec {
-    /// All that is wrong with the domain and the shapes; paths as in a shape file, such as `shapes[2].disc.radius`.
+    /// All problems of the domain and the shapes; paths as in a shape file, such as `shapes[2].disc.radius`.
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = self.domain_problems();
         for (i, shape) in self.shapes.iter().enumerate() {
@@ -88,7 +88,7 @@ fn reaches(body: &Body, domain: Bounds) -> bool {
             .iter()
             .any(|part| body.place(part.point(0.5), tolerance) == Place::In)
     });
-    // Where no surface parts the domain, it is covered as a whole or not at all.
+    // A domain that no surface crosses is covered completely or not at all.
     inner
         || body.place(domain.center(), tolerance) == Place::In
         || body.curves.iter().any(|curve| {
@@ -116,17 +116,17 @@ impl ShapeSpec {
         }
     }
 
-    /// All that is wrong with the shape in the domain of a geometry; `at` is its place, such as `shapes[2]`.
+    /// All problems of the shape in the domain of a geometry; `at` is its path, such as `shapes[2]`.
     pub(crate) fn problems_in(&self, geometry: &GeometrySpec, at: &str) -> Vec<Problem> {
         let domain = Bounds { min: Vec2::from(geometry.min), max: Vec2::from(geometry.max) };
         let is_domain = geometry.domain_problems().is_empty();
         let extents = if is_domain { extent::shape_problems(domain, self, at) } else { Vec::new() };
         let own = self.problems(at);
-        // What is no size at all is told once.
+        // An invalid size is reported once.
         if own.is_empty() { extents } else { own }
     }
 
-    /// All that is wrong with the shape by itself; `at` is its place, such as `shapes[2]`.
+    /// All problems of the shape by itself; `at` is its path, such as `shapes[2]`.
     pub fn problems(&self, at: &str) -> Vec<Problem> {
         let mut check = Check { at: format!("{at}.{}", self.key()), found: Vec::new() };
         match self {
@@ -186,7 +186,7 @@ impl Check {
             .chain(&polygon.holes)
             .map(|ring| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect())
             .collect();
-        // Three points, so that straight edges enclose an area.
+        // At least three points, so that straight edges enclose an area.
         self.rings(&rings, 3);
     }
 
@@ -197,7 +197,7 @@ impl Check {
         self.rings(&rings, 2);
     }
 
-    /// Checks the outer ring and the holes, of at least so many points each.
+    /// Checks the outer ring and the holes, with at least `least` points each.
     fn rings(&mut self, rings: &[Vec<[f64; 3]>], least: usize) {
         let before = self.found.len();
         for (k, ring) in rings.iter().enumerate() {
@@ -208,7 +208,7 @@ impl Check {
         }
         let curves: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(ring).collect()).collect();
         let faults = faults(&curves);
-        // A ring that crosses itself runs both ways, and may enclose no area.
+        // A self-intersecting ring has both orientations, and may enclose no area.
         let crosses =
             |k: usize| faults.iter().any(|f| matches!(f, RingFault::SelfIntersection { ring, .. } if *ring == k));
         for (k, ring) in rings.iter().enumerate().filter(|(k, _)| !crosses(*k)) {
@@ -248,13 +248,13 @@ impl Check {
             self.finite(key, points.as_flattened());
             return;
         }
-        let place = |i: usize| [points[i][0], points[i][1]];
-        if place(0) == place(count - 1) {
+        let point = |i: usize| [points[i][0], points[i][1]];
+        if point(0) == point(count - 1) {
             self.add(key, "the last point repeats the first", "remove the last point: rings close by themselves");
             return;
         }
-        if let Some(i) = (1..count).find(|&i| place(i) == place(i - 1)) {
-            let [x, y] = place(i);
+        if let Some(i) = (1..count).find(|&i| point(i) == point(i - 1)) {
+            let [x, y] = point(i);
             self.add(key, format!("points {} and {i} are both ({x:e}, {y:e})", i - 1), "remove one of them");
             return;
         }
@@ -286,7 +286,7 @@ fn key_of(ring: usize) -> String {
     ring.checked_sub(1).map_or_else(|| "outer".to_owned(), |hole| format!("holes[{hole}]"))
 }
 
-/// Signed area in m² of a ring of vertices with bulges, above 0 where it runs counter-clockwise.
+/// Signed area in m² of a ring of vertices with bulges, positive if counter-clockwise.
 fn bulged_area(points: &[[f64; 3]]) -> f64 {
     let Some(&[x, y, _]) = points.first() else { return 0.0 };
     let origin = Vec2::new(x, y);
@@ -298,7 +298,7 @@ fn bulged_area(points: &[[f64; 3]]) -> f64 {
         .sum::<f64>()
 }
 
-/// Signed area of a ring in m², above 0 where it runs counter-clockwise.
+/// Signed area of a ring in m², positive if counter-clockwise.
 pub(crate) fn ring_area(points: &[[f64; 2]]) -> f64 {
     let Some(&first) = points.first() else { return 0.0 };
     let origin = Vec2::from(first);

@@ -1,14 +1,13 @@
-//! How often closed rings of segments and arcs wind around a point.
+//! Winding numbers of closed rings of segments and arcs.
 //!
-//! Seen from outside of the box around a part of a ring, that part turns by the angle between its two ends: it and its chord close to a loop
-//! that does not go around the point. So a tree of boxes over consecutive edges tells the winding number from the few
-//! edges whose boxes hold the point. No ray is cast, and so vertices and tangents need no care (the idea is that of the hierarchical
-//! winding numbers of Jacobson et al. 2013, here without approximation).
+//! From outside the box around a part of a ring, that part subtends the same angle as its chord: both form a closed loop that does not enclose the point. A
+//! tree of boxes over consecutive edges thus gives the winding number from the few edges whose boxes contain the point. No ray is cast, so that vertices and
+//! tangents need no special treatment (the idea of the hierarchical winding numbers of Jacobson et al. 2013, here without approximation).
 
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Bounds, Vec2};
 
-/// Consecutive edges that are not divided further.
+/// Number of consecutive edges that are not divided further.
 const LEAF: usize = 4;
 
 /// Consecutive edges of a ring.
@@ -19,11 +18,11 @@ struct Part {
     ends: [Vec2; 2],
     /// The edges, from the first to before the last.
     edges: std::ops::Range<usize>,
-    /// The part behind the first half, which follows this one; none where there are few edges.
+    /// The second half; the first half follows this part in the list. `None` for few edges.
     second: Option<usize>,
 }
 
-/// Closed rings, prepared for the question.
+/// Closed rings, prepared for queries.
 #[derive(Clone)]
 pub(crate) struct Winding {
     curves: Vec<Curve>,
@@ -33,7 +32,7 @@ pub(crate) struct Winding {
 }
 
 impl Winding {
-    /// Prepares closed rings, each a chain of edges whose last one leads back to the first.
+    /// Prepares closed rings, each a chain of edges whose last one ends at the start of the first.
     pub(crate) fn of(rings: impl IntoIterator<Item = Vec<Curve>>) -> Self {
         let mut winding = Self { curves: Vec::new(), parts: Vec::new(), rings: Vec::new() };
         for ring in rings.into_iter().filter(|ring| !ring.is_empty()) {
@@ -64,12 +63,12 @@ impl Winding {
         index
     }
 
-    /// The number of turns around `x`, above 0 counter-clockwise; a whole number off the rings.
+    /// The winding number about `x`, positive counter-clockwise; an integer off the rings.
     pub(crate) fn turns(&self, x: Vec2) -> f64 {
         self.rings.iter().map(|&ring| self.angle(ring, x)).sum::<f64>() / std::f64::consts::TAU
     }
 
-    /// The signed angle in rad by which a part turns around `x`.
+    /// The signed angle in rad that a part subtends at `x`.
     fn angle(&self, part: usize, x: Vec2) -> f64 {
         let Part { bounds, ends, edges, second } = &self.parts[part];
         if !bounds.contains(x) {
@@ -130,7 +129,7 @@ mod tests {
 
     #[test]
     fn level_with_a_vertex_and_beside_a_tangent_the_number_of_turns_is_right() {
-        // A stadium: rays along its straight sides and through its joints meet vertices and tangents only.
+        // A stadium: rays along its straight sides and through its joints contain vertices and tangents only.
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(Vec2::from);
         let bulges = [0.0, 1.0, 0.0, 1.0];
         let ring: Vec<Curve> = (0..4).map(|k| Curve::from_bulge(corners[k], corners[(k + 1) % 4], bulges[k])).collect();

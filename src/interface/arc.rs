@@ -1,43 +1,43 @@
-//! The shape of a static meniscus, fitted to points along it: a circle, or under a body force an arc of Young and Laplace.
+//! The shape of a static meniscus, fitted to points along it: a circle, or under a body force the arc that solves the Young-Laplace equation.
 //!
-//! Along a static meniscus the curvature is κ = κ_0 + (Δρ/σ) g·(x − x_0). The arc is integrated to both sides of a point in the middle of
-//! the points, and its three unknowns (curvature, direction and offset there) are found by Gauss-Newton for the smallest squared
-//! distances. Leaves out the bending of a moving interface by the flow.
+//! Along a static meniscus the curvature is κ = κ_0 + (Δρ/σ) g·(x − x_0). The arc is integrated to both sides from the middle of the points, and its three
+//! unknowns (curvature, direction and offset there) minimize the sum of squared distances by Gauss-Newton. The bending of a moving interface by the flow is
+//! neglected.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::circle::{self, CircleError, CircleFit};
 use crate::math::{Vec2, perpendicular};
 
-/// Steps of Gauss-Newton; from the circle a few do.
+/// Maximum number of Gauss-Newton steps; starting from the circle a few suffice.
 const STEPS: usize = 20;
 
-/// Trials of a step, each half as long.
+/// Maximum number of halvings of a step.
 const HALVINGS: usize = 12;
 
-/// A step has settled where it changes no parameter by more than this share of those by which slopes are found.
+/// The iteration has converged when a step changes no parameter by more than this fraction of the increment of the finite differences.
 const SETTLED: f64 = 1e-4;
 
-/// Nodes of an arc per point that it is fitted to.
+/// Nodes of an arc per fitted point.
 const NODES_PER_POINT: f64 = 2.0;
 
-/// Most nodes on each side of the middle.
+/// Maximum number of nodes on each side of the middle.
 const MOST_NODES: usize = 20_000;
 
 /// The fitted shape of a meniscus.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Arc {
-    /// Curvature, direction and place in the middle of the points, with their covariance.
+    /// Curvature, direction and position in the middle of the points, with their covariance.
     pub(crate) middle: CircleFit,
     /// Δρ g/σ in 1/m².
     force: Vec2,
-    /// How far it goes to both sides of the middle, and the way from node to node, in m.
+    /// Arc length to both sides of the middle, and between nodes, in m.
     lengths: [f64; 2],
-    /// Nodes in the order of the points; none of a circle, which has closed forms.
+    /// Nodes in the order of the points; empty for a circle, which has closed forms.
     nodes: Vec<Node>,
 }
 
-/// A place of an arc.
+/// A node of an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Node {
     x: Vec2,
@@ -46,20 +46,20 @@ struct Node {
 }
 
 impl Node {
-    /// Signed distance (m) of `x` on the side of the normal, and the way (m) along the arc from the node to beside it.
+    /// Signed distance (m) of `x`, positive on the side of the normal, and the arc length (m) from the node to the foot of the perpendicular.
     fn beside(&self, x: Vec2) -> (f64, f64) {
         let from = x - self.x;
-        let way = from.dot(&self.tangent);
-        (from.dot(&perpendicular(self.tangent)) - 0.5 * self.curvature * way * way, way)
+        let along = from.dot(&self.tangent);
+        (from.dot(&perpendicular(self.tangent)) - 0.5 * self.curvature * along * along, along)
     }
 }
 
 impl Arc {
-    /// Fits `points` (m), given in order along the meniscus with the wetting phase on the left, under the `force` Δρ g/σ (1/m²), Δρ the
-    /// density on the left less that on the right. The arc can be followed for `beyond` (m) past both ends.
+    /// Fits `points` (m), given in order along the meniscus with the wetting phase on the left, under the `force` Δρ g/σ (1/m²), where Δρ is the density on
+    /// the left minus that on the right. The arc extends by `beyond` (m) past both ends.
     ///
     /// # Errors
-    /// As for circles.
+    /// As for [`circle::fit`].
     pub(crate) fn fit(points: &[Vec2], force: Vec2, beyond: f64) -> Result<Self, CircleError> {
         let circle = circle::fit(points)?;
         if force == Vec2::zeros() {
@@ -105,7 +105,7 @@ impl Arc {
         Ok(best)
     }
 
-    /// The arc through the middle point of a circle with its direction and curvature there.
+    /// The arc with direction and curvature of a circle at its middle point.
     fn traced(middle: CircleFit, force: Vec2, lengths: [f64; 2]) -> Self {
         let [reach, step] = lengths;
         let count = ((reach / step).ceil() as usize).min(MOST_NODES);
@@ -165,16 +165,16 @@ impl Arc {
         perpendicular(turned(node.tangent, node.curvature * node.beside(x).1))
     }
 
-    /// The point of the arc at the way `way` (m) from beside `from`, in the order of the points; its end for places beyond.
-    pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
+    /// The point of the arc at the arc length `length` (m) from the foot of `from`, in the order of the points; clamped to the ends of the arc.
+    pub(crate) fn walk(&self, from: Vec2, length: f64) -> Vec2 {
         if self.nodes.is_empty() {
-            return self.middle.walk(from, way);
+            return self.middle.walk(from, length);
         }
         let k = self.nearest(from);
         let step = self.lengths[1];
-        let place = k as f64 + (self.nodes[k].beside(from).1 + way) / step;
-        let node = place.round().clamp(0.0, (self.nodes.len() - 1) as f64);
-        let rest = ((place - node) * step).clamp(-step, step);
+        let position = k as f64 + (self.nodes[k].beside(from).1 + length) / step;
+        let node = position.round().clamp(0.0, (self.nodes.len() - 1) as f64);
+        let rest = ((position - node) * step).clamp(-step, step);
         let Node { x, tangent, curvature } = self.nodes[node as usize];
         x + rest * turned(tangent, 0.5 * rest * curvature)
     }
@@ -195,7 +195,7 @@ fn turned(v: Vec2, angle: f64) -> Vec2 {
 mod tests {
     use super::*;
 
-    /// A meniscus from the direction `phi` (rad) at (1, 0) on, with a point every thirtieth step.
+    /// A meniscus that starts at (1, 0) in the direction `phi` (rad), with a point at every thirtieth step.
     fn meniscus(phi: f64, kappa: f64, force: Vec2) -> Vec<Vec2> {
         let (mut x, mut phi, ds) = (Vec2::x(), phi, 1e-3);
         let mut points = vec![x];

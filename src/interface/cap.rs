@@ -9,7 +9,7 @@ pub struct Cap {
     pub base: f64,
     /// Height in m.
     pub height: f64,
-    /// Laplace jump over surface tension in 1/m.
+    /// Laplace pressure jump over surface tension in 1/m.
     pub curvature: f64,
 }
 
@@ -23,7 +23,7 @@ pub fn cap(area: f64, angle: f64) -> Cap {
 mod tests {
     use super::*;
 
-    /// Half of the last digit printed.
+    /// Half a unit in the last printed digit.
     const PRINTED: f64 = 0.6e-5;
 
     #[test]

@@ -1,22 +1,21 @@
 //! Least-squares circle through points along a curve, with standard errors; a straight line is the circle of curvature 0.
 //!
-//! The start is Pratt's algebraic fit (Pratt 1987; Newton's iteration for its eigenvalue by Chernov 2010), then the sum of
-//! squared distances is minimized by Gauss-Newton in the parameters curvature, direction of the normal and offset
-//! (Karimäki 1991), which stay regular when the radius goes to infinity. Standard errors come from the residuals; where
-//! neighboring residuals are alike, the number of independent points is taken as (1 - r)/(1 + r) of the points, r being
-//! the correlation of neighbors. Leaves out weights and outliers.
+//! The initial guess is Pratt's algebraic fit (Pratt 1987; Newton's iteration for its eigenvalue by Chernov 2010). Then Gauss-Newton minimizes the sum of
+//! squared distances in the parameters curvature, direction of the normal and offset (Karimäki 1991), which stay regular as the radius goes to infinity.
+//! Standard errors come from the residuals; where neighboring residuals are correlated, the effective number of points is (1 - r)/(1 + r) times their number,
+//! with r the lag-one correlation. Points have equal weights; outliers are not rejected.
 
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
 use crate::math::{Vec2, perpendicular};
 
-/// Why no circle could be fitted.
+/// Why a circle could not be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CircleError {
-    /// Three unknowns need three points.
+    /// Three unknowns need at least three points.
     #[error("a circle needs at least 3 points, found {0}")]
     TooFewPoints(usize),
-    /// Points that coincide, or values that are not finite.
+    /// Points that coincide or are not finite.
     #[error("the points do not determine a circle")]
     Degenerate,
 }
@@ -50,16 +49,16 @@ impl CircleFit {
         to_center / to_center.norm()
     }
 
-    /// The point of the circle at the arc length `way` (m) from its nearest point to `from`, in the order of the points.
-    pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
+    /// The point of the circle at the arc length `length` (m) from the point nearest to `from`, in the order of the points.
+    pub(crate) fn walk(&self, from: Vec2, length: f64) -> Vec2 {
         let normal = self.normal_at(from);
         let start = from - self.distance(from) * normal;
         let tangent = -perpendicular(normal);
-        let turn = self.curvature * way;
+        let turn = self.curvature * length;
         // sin(a)/a and (1 - cos(a))/a, regular at zero.
         let sine = if turn.abs() < 1e-4 { 1.0 - turn * turn / 6.0 } else { turn.sin() / turn };
         let versine = if turn.abs() < 1e-4 { 0.5 * turn } else { (1.0 - turn.cos()) / turn };
-        start + way * (sine * tangent + versine * normal)
+        start + length * (sine * tangent + versine * normal)
     }
 
     /// The same circle with its three parameters changed by `change` (1/m, rad, m).
@@ -87,13 +86,13 @@ impl Parameters {
         Vec2::new(self.direction.cos(), self.direction.sin())
     }
 
-    /// Half of the power of `y`, times the curvature: zero on the circle, positive outside of it for positive curvature.
+    /// Half the power of the point `y` times the curvature: zero on the circle, positive outside it for positive curvature.
     fn power(&self, y: Vec2) -> f64 {
         let z = y - self.offset * self.normal();
         0.5 * self.curvature * z.norm_squared() - z.dot(&self.normal())
     }
 
-    /// |y - center| times |curvature|; the guard is for rounding at the center itself.
+    /// |y - center| times |curvature|, guarded against rounding at the center.
     fn reduced_radius(&self, power: f64) -> f64 {
         (1.0 + 2.0 * self.curvature * power).max(1e-12).sqrt()
     }
@@ -104,7 +103,7 @@ impl Parameters {
         2.0 * power / (1.0 + self.reduced_radius(power))
     }
 
-    /// Derivatives of the distance by the three parameters.
+    /// Derivatives of the distance with respect to the three parameters.
     fn gradient(&self, y: Vec2) -> Vector3<f64> {
         let (u, power) = (self.normal(), self.power(y));
         let s = self.reduced_radius(power);
@@ -131,7 +130,7 @@ impl Parameters {
 /// Fits a circle to `points` (m), given in order along the curve.
 ///
 /// # Errors
-/// Fewer than three points, or points that coincide or are not finite.
+/// If there are fewer than three points, or points that coincide or are not finite.
 pub(crate) fn fit(points: &[Vec2]) -> Result<CircleFit, CircleError> {
     if points.len() < 3 {
         return Err(CircleError::TooFewPoints(points.len()));
@@ -142,7 +141,7 @@ pub(crate) fn fit(points: &[Vec2]) -> Result<CircleFit, CircleError> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(CircleError::Degenerate);
     }
-    // The origin is a point of the curve itself: there the normal has a meaning for a full circle as well.
+    // The origin is a point of the curve itself, where the normal is defined even for a full circle.
     let nearest = |best: usize, i: usize| {
         if (points[i] - centroid).norm_squared() < (points[best] - centroid).norm_squared() { i } else { best }
     };
@@ -164,7 +163,7 @@ pub(crate) fn fit(points: &[Vec2]) -> Result<CircleFit, CircleError> {
     })
 }
 
-/// The same circle with the normal on the left of the way `chord`.
+/// The same circle with the normal on the left of the direction `chord`.
 fn oriented(p: Parameters, chord: Vec2) -> Parameters {
     if p.normal().dot(&perpendicular(chord)) >= 0.0 {
         return p;
@@ -172,7 +171,7 @@ fn oriented(p: Parameters, chord: Vec2) -> Parameters {
     Parameters { curvature: -p.curvature, direction: p.direction + std::f64::consts::PI, offset: -p.offset }
 }
 
-/// Pratt's algebraic fit: a |y|² + b.y + c with |b|² - 4 a c = 1, least squares; nothing where the points coincide.
+/// Pratt's algebraic fit: a |y|² + b.y + c with |b|² - 4 a c = 1, least squares; `None` if the points coincide.
 fn pratt(points: &[Vec2]) -> Option<Parameters> {
     let count = points.len() as f64;
     let center = points.iter().sum::<Vec2>() / count;
@@ -199,7 +198,7 @@ fn pratt(points: &[Vec2]) -> Option<Parameters> {
     Some(Parameters { curvature: 2.0 * v[0], direction, offset })
 }
 
-/// Smallest eigenvalue that is not negative of Pratt's problem, from the moments about the centroid.
+/// Smallest non-negative eigenvalue of Pratt's problem, from the moments about the centroid.
 fn pratt_eigenvalue(m: &Matrix4<f64>) -> f64 {
     let (zz, xz, yz, xx, xy, yy) = (m[(0, 0)], m[(0, 1)], m[(0, 2)], m[(1, 1)], m[(1, 2)], m[(2, 2)]);
     let z = xx + yy;
@@ -208,7 +207,7 @@ fn pratt_eigenvalue(m: &Matrix4<f64>) -> f64 {
     let a1 = zz * z + 4.0 * covariance * z - xz * xz - yz * yz - z * z * z;
     let a0 = xz * xz * yy + yz * yz * xx - zz * covariance - 2.0 * xz * yz * xy + z * z * covariance;
     let mut x = 0.0;
-    // Newton from 0 climbs to the root without passing it; a hundred steps are far more than it ever takes.
+    // Newton from 0 approaches the root monotonically; a hundred steps are far more than it ever needs.
     for _ in 0..100 {
         let value = a0 + x * (a1 + x * (a2 + 4.0 * x * x));
         let slope = a1 + x * (2.0 * a2 + 16.0 * x * x);
@@ -224,7 +223,7 @@ fn pratt_eigenvalue(m: &Matrix4<f64>) -> f64 {
 fn gauss_newton(start: Parameters, points: &[Vec2]) -> Parameters {
     let mut best = start;
     let mut cost = best.cost(points);
-    // Damping of Levenberg and Marquardt: exact data need none, noisy short arcs a little.
+    // Levenberg-Marquardt damping: exact data need none, noisy short arcs a little.
     let mut damping = 1e-9;
     for _ in 0..60 {
         let (normal, right) = normal_equations(&best, points);
@@ -249,7 +248,7 @@ fn gauss_newton(start: Parameters, points: &[Vec2]) -> Parameters {
     best
 }
 
-/// Jacobian's square and the right side of a Gauss-Newton step.
+/// JᵀJ of the Jacobian and the right-hand side of a Gauss-Newton step.
 fn normal_equations(p: &Parameters, points: &[Vec2]) -> (Matrix3<f64>, Vector3<f64>) {
     points.iter().fold((Matrix3::zeros(), Vector3::zeros()), |(normal, right), &y| {
         let g = p.gradient(y);
@@ -263,18 +262,18 @@ fn covariance(p: &Parameters, points: &[Vec2]) -> Option<Matrix3<f64>> {
     Some(inverse * variance_of(&residuals))
 }
 
-/// The variance with which the residuals of three unknowns, in order along a curve, count.
+/// Effective variance of the residuals of a fit with three unknowns, in order along a curve, corrected for their correlation.
 pub(super) fn variance_of(residuals: &[f64]) -> f64 {
     let sum: f64 = residuals.iter().map(|r| r * r).sum();
     let lagged: f64 = residuals.windows(2).map(|w| w[0] * w[1]).sum();
-    // Neighboring residuals of a smoothed field repeat each other; 0.9 keeps the error bar finite.
+    // Neighboring residuals of a smoothed field are correlated; the bound 0.9 keeps the error bar finite.
     let correlation = if sum > 0.0 { (lagged / sum).clamp(0.0, 0.9) } else { 0.0 };
-    // Three points leave no freedom; one is the least that can be divided by.
+    // Three points leave no degree of freedom; one avoids a division by zero.
     let freedom = (residuals.len() as f64 - 3.0).max(1.0);
     sum / freedom * (1.0 + correlation) / (1.0 - correlation)
 }
 
-/// What tests compare with.
+/// Reference quantities for tests.
 #[cfg(test)]
 impl CircleFit {
     /// Center in m, which is not finite for a straight line.
@@ -301,7 +300,7 @@ mod tests {
             .collect()
     }
 
-    /// Evenly spread numbers in [-1, 1] without correlation of neighbors.
+    /// Uncorrelated numbers spread evenly over [-1, 1].
     fn noise(i: usize) -> f64 {
         let x = (i as f64 * 12.9898 + 4.1414).sin() * 43_758.545_3;
         2.0 * (x - x.floor()) - 1.0
@@ -347,7 +346,7 @@ mod tests {
             claimed += fit.curvature_error().powi(2);
         }
         let ratio = (off / claimed).sqrt();
-        // 200 trials scatter by 5 %; the correction for correlated neighbors widens the claim a little.
+        // 200 samples scatter by 5 %; the correction for correlated neighbors widens the estimate a little.
         assert!((0.7..1.2).contains(&ratio), "scatter over claimed error {ratio}");
     }
 

@@ -1,13 +1,12 @@
-//! Contact angles: the shape of a static meniscus fitted to the c = 0.5 contour away from the wall, extrapolated to the wall.
+//! Contact angles: the shape of a static meniscus fitted to the c = 0.5 contour away from the wall and extrapolated to the wall.
 //!
-//! The shape is a circle, or under a body force the arc of Young and Laplace ([`arc`](super::arc)). The vertices nearer to the wall than the
-//! exclusion distance (2h, down to h for short menisci) are left out, since there the smoothed color feels the wall; normals of particles are
-//! never used. The fit of a meniscus serves both of its contact lines, unless a window limits it to the part next to each. The angle is
-//! measured through the phase on the left of the contour (the wetting one). A shape that passes the wall by within the exclusion
-//! distance touches it: at 0 or 180 degrees.
+//! The shape is a circle, or under a body force the arc of the Young-Laplace equation ([`arc`](super::arc)). Vertices nearer to the wall than the exclusion
+//! distance (2h, down to h for short menisci) are left out, since the wall distorts the smoothed color there; particle normals are never used. One fit serves
+//! both contact lines of a meniscus, unless a window limits it to the part next to each. The angle is measured through the phase on the left of the contour
+//! (the wetting one). A shape that passes the wall within the exclusion distance is taken as tangent to it: 0 or 180 degrees.
 //!
-//! The standard uncertainty of an angle has three parts: the scatter of the contour about the shape; the choice of the exclusion distance,
-//! half of what fits with others differ by; and the accuracy of the contour itself, as if its ends lay off by [`ACCURACY`].
+//! The standard uncertainty of an angle has three contributions: the scatter of the contour about the shape; the choice of the exclusion distance, half the
+//! spread between fits with other distances; and the accuracy of the contour, as if its ends were displaced by [`ACCURACY`].
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,35 +16,35 @@ use super::polyline::Polyline;
 use super::wall::{WallPoint, face_beside, is_edge_between};
 use crate::math::Vec2;
 
-/// What to fit.
+/// Settings of the fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSettings {
     /// Vertices nearer to the wall than this are left out, in m; 2h.
     pub exclusion: f64,
-    /// The end of an open contour is at the wall where it is nearer to it than this, in m.
+    /// An open contour ends on the wall if its end is nearer to it than this, in m.
     pub reach: f64,
-    /// Only vertices within this way along the contour from the first one used are fitted, in m; infinite: the meniscus.
+    /// Only vertices within this arc length from the first one used are fitted, in m; infinite: the whole meniscus.
     pub window: f64,
-    /// Δρ g/σ in 1/m², Δρ the density of the wetting less that of the other phase.
+    /// Δρ g/σ in 1/m², Δρ the density of the wetting minus that of the other phase.
     pub force: Vec2,
-    /// How far the contour may lie off the interface, in m.
+    /// Systematic displacement of the contour from the interface, in m.
     pub accuracy: f64,
 }
 
-/// How far a contour may lie off the interface beyond its scatter, over h. Calibrated: docs/numerics/error-bars.md.
+/// Displacement of a contour from the interface beyond its scatter, over h. Calibrated: docs/numerics/error-bars.md.
 pub(crate) const ACCURACY: f64 = 0.015;
 
-/// The exclusion distance is at most this share of the length of a meniscus, so that five sixths of a short one are left, but not less than
-/// half of that of long ones.
+/// Upper bound of the exclusion distance over the length of a meniscus: five sixths of a short one are kept. The distance is at least half of that of long
+/// menisci.
 const LARGEST_SHARE: f64 = 1.0 / 12.0;
 
-/// And at most this share of its largest distance from walls: low puddles bend near the wall only.
+/// Upper bound of the exclusion distance over the largest distance of the meniscus from walls: low puddles bend near the wall only.
 const LARGEST_SHARE_OF_HEIGHT: f64 = 1.0 / 3.0;
 
-/// Under a body force so many capillary lengths of a meniscus are fitted from its end on.
+/// Under a body force this many capillary lengths of a meniscus are fitted, from its end.
 const CAPILLARY_LENGTHS: f64 = 4.0;
 
-/// The other exclusion distances whose angles tell what the choice of one costs.
+/// Factors of the exclusion distance for the fits that estimate the uncertainty of its choice.
 const OTHER_EXCLUSIONS: [f64; 2] = [0.5, 1.5];
 
 impl ContactSettings {
@@ -60,9 +59,9 @@ impl ContactSettings {
         Self { force, ..self }
     }
 
-    /// The same for a meniscus of the `length` (m) that is nowhere farther from walls than `height` (m).
+    /// The same for a meniscus of the `length` (m) whose largest distance from walls is `height` (m).
     fn for_size(self, length: f64, height: f64) -> Self {
-        // Farther from its end a puddle tells nothing, and an arc followed so far is unstable.
+        // Farther from its end a puddle carries no information, and integration of the arc becomes unstable.
         let window = self.window.min(CAPILLARY_LENGTHS / self.force.norm().sqrt());
         Self {
             window,
@@ -74,7 +73,7 @@ impl ContactSettings {
     }
 }
 
-/// On which side of the contact line the wetting phase touches the wall, for someone who looks from the wall into the pore.
+/// On which side of the contact line the wetting phase touches the wall, looking from the wall into the pore.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WettingSide {
     /// On the left: the contour begins here.
@@ -89,15 +88,15 @@ pub enum ContactProblem {
     /// The meniscus is too short for a fit.
     #[error("only {found} contour points are farther than {exclusion:.3e} m from the wall, {LEAST_POINTS} are needed")]
     TooFewPoints {
-        /// Points beyond the exclusion distance.
+        /// Number of points beyond the exclusion distance.
         found: usize,
         /// The exclusion distance in m.
         exclusion: f64,
     },
-    /// The points determine no circle.
+    /// The points do not determine a circle.
     #[error("no circle fits the contour: {0}")]
     NoCircle(#[from] circle::CircleError),
-    /// The fitted shape passes by.
+    /// The fitted shape misses the wall.
     #[error("the fitted meniscus does not meet the wall")]
     NoIntersection,
 }
@@ -107,37 +106,37 @@ pub enum ContactProblem {
 pub struct ContactLine {
     /// Where the fitted meniscus meets the wall, in m; the end of the contour where it does not.
     pub position: Vec2,
-    /// Angle through the wetting phase in degrees, NaN where there is a problem.
+    /// Angle through the wetting phase in degrees, NaN if it could not be determined.
     pub angle_deg: f64,
     /// Standard uncertainty of the angle in degrees.
     pub uncertainty_deg: f64,
-    /// Curvature in 1/m in the middle of the points fitted, positive where the wetting phase is convex.
+    /// Curvature in 1/m in the middle of the fitted points, positive where the wetting phase is convex.
     pub curvature: f64,
     /// Standard uncertainty of the curvature in 1/m.
     pub curvature_uncertainty: f64,
     /// Where the wetting phase is.
     pub side: WettingSide,
-    /// Index of the contour among those given.
+    /// Index of the contour.
     pub contour: usize,
     /// Why there is no angle.
     pub problem: Option<ContactProblem>,
 }
 
-/// An arc that passes an edge nearer than this, over the exclusion distance, ends there.
+/// An arc that passes an edge at less than this times the exclusion distance ends there.
 const GRAZE: f64 = 0.2;
 
-/// An arc that comes so near to a wall, over the exclusion distance, and passes it by, touches it.
+/// An arc whose smallest distance from a wall is below this times the exclusion distance is tangent to the wall.
 const MISSED: f64 = 0.5;
 
-/// Arcs are followed so far, over the exclusion distance: one that leaves the band at 10 degrees is six times as long as the band is wide.
+/// Longest extrapolation over the exclusion distance: an arc that leaves the band at 10 degrees crosses it over six times its width.
 const LONGEST: f64 = 20.0;
 
-/// The fewest points that are fitted: twice the unknowns.
+/// Minimum number of fitted points: twice the number of unknowns.
 pub(crate) const LEAST_POINTS: usize = 6;
 
-/// The contact lines of `contours`: both ends of each open contour that come to the wall.
+/// The contact lines of `contours`: both ends of each open contour that end on the wall.
 ///
-/// Ends away from walls (at an open side, or at the seam of a periodic one) are no contact lines.
+/// Ends away from walls (at an open boundary, or at the seam of a periodic one) are not contact lines.
 pub fn contact_lines(
     contours: &[Polyline],
     wall: &dyn Fn(Vec2) -> WallPoint,
@@ -185,7 +184,7 @@ fn unmeasured(position: Vec2, side: WettingSide, contour: usize, problem: Contac
     }
 }
 
-/// The run of vertices beyond the exclusion distance that is next to one end, limited to the window.
+/// The vertices beyond the exclusion distance next to one end, limited to the window.
 pub(super) fn fitted_points<'a>(
     line: &'a Polyline,
     distances: &[f64],
@@ -199,10 +198,10 @@ pub(super) fn fitted_points<'a>(
         WettingSide::Right => (0..count).rev().collect(),
     };
     let run: Vec<usize> = walk.into_iter().skip_while(|i| !away(i)).take_while(away).collect();
-    let mut way = 0.0;
+    let mut arc_length = 0.0;
     let within = run.windows(2).take_while(|w| {
-        way += (line.points[w[1]] - line.points[w[0]]).norm();
-        way <= settings.window
+        arc_length += (line.points[w[1]] - line.points[w[0]]).norm();
+        arc_length <= settings.window
     });
     let used = within.count() + 1;
     match (run.first(), run.get(used - 1)) {
@@ -225,16 +224,16 @@ fn measure(
     let from = if side == WettingSide::Left { points[0] } else { points[found - 1] };
     let angle_of = |arc: &Arc| {
         let position = meet(arc, from, side, wall, exclusion)?;
-        // An interface at an edge has its angle to the face that the wetting phase covers.
+        // An interface at an edge makes its angle with the face that the wetting phase covers.
         let normal = face_beside(wall, position, side == WettingSide::Left, exclusion);
         Some((position, angle(arc.normal_at(position), normal)))
     };
     let (position, theta) = angle_of(&arc).ok_or(ContactProblem::NoIntersection)?;
-    // The ends of the points off by the accuracy, against the middle, to opposite sides, and all together.
+    // Displacement by the accuracy: the ends against the middle, the ends in opposite directions, and all points together.
     let length = (points[found - 1] - points[0]).norm();
     let accuracy = settings.accuracy * Vector3::new(8.0 / (length * length), 2.0 / length, 1.0);
     let covariance = arc.middle.covariance + Matrix3::from_diagonal(&accuracy.component_mul(&accuracy));
-    // Near 0 and 180 degrees small changes move the angle by their root: each by its standard error, to both sides.
+    // Near 0 and 180 degrees the angle varies as the square root of small changes: each parameter is changed by its standard error in both directions.
     let mut slope = Vector3::zeros();
     for k in 0..3 {
         let step = covariance[(k, k)].max(0.0).sqrt();
@@ -263,26 +262,25 @@ fn angle(into_wetting: Vec2, into_pore: Vec2) -> f64 {
     into_wetting.perp(&into_pore).abs().atan2(-into_wetting.dot(&into_pore))
 }
 
-/// Follows the arc from the vertex `from` towards the wall until the wall distance is zero, or past an edge, or to where it is nearest to the
-/// wall that it passes by.
+/// Follows the arc from the vertex `from` towards the wall until the wall distance is zero, past an edge, or to its point nearest to a wall that it misses.
 fn meet(arc: &Arc, from: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoint, exclusion: f64) -> Option<Vec2> {
     let direction = if side == WettingSide::Left { -1.0 } else { 1.0 };
-    // Half of the circle is as far as a contact line can be.
+    // A contact line is at most half the circle away.
     let longest = (LONGEST * exclusion).min(std::f64::consts::PI / arc.curvature_at(from).abs());
-    let at = |way: f64| arc.walk(from, direction * way);
-    let distance = |way: f64| wall(at(way)).distance;
-    // The wall is never nearer than its distance, so steps of that length cannot pass it; the least step gets through.
+    let at = |arc_length: f64| arc.walk(from, direction * arc_length);
+    let distance = |arc_length: f64| wall(at(arc_length)).distance;
+    // The wall is never nearer than its distance, so steps of that length cannot cross it; the minimum step crosses in the end.
     let least = 1e-3 * exclusion;
-    let (mut before, mut way, mut last, mut nearest) = (0.0, 0.0, f64::INFINITY, (f64::INFINITY, 0.0));
+    let (mut before, mut arc_length, mut last, mut nearest) = (0.0, 0.0, f64::INFINITY, (f64::INFINITY, 0.0));
     loop {
-        let d = distance(way);
+        let d = distance(arc_length);
         if d.is_nan() {
             return None;
         }
         if d <= 0.0 {
             break;
         }
-        // An interface that ends at an edge may pass by it as the fit errs.
+        // An interface that ends at an edge may miss it by the error of the fit.
         if d > last && last < GRAZE * exclusion {
             let [behind, here, ahead] = [-exclusion, 0.0, exclusion].map(|by| at(before + by));
             if is_edge_between(wall, behind, ahead) {
@@ -290,34 +288,34 @@ fn meet(arc: &Arc, from: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoi
             }
         }
         if d < nearest.0 {
-            nearest = (d, way);
+            nearest = (d, arc_length);
         }
         last = d;
-        before = way;
-        way += d.max(least);
-        if way > longest || d > nearest.0 + exclusion {
+        before = arc_length;
+        arc_length += d.max(least);
+        if arc_length > longest || d > nearest.0 + exclusion {
             return (nearest.0 < MISSED * exclusion).then(|| at(nearest.1));
         }
     }
     for _ in 0..60 {
-        let middle = 0.5 * (before + way);
-        if distance(middle) > 0.0 { before = middle } else { way = middle }
+        let middle = 0.5 * (before + arc_length);
+        if distance(middle) > 0.0 { before = middle } else { arc_length = middle }
     }
-    Some(at(0.5 * (before + way)))
+    Some(at(0.5 * (before + arc_length)))
 }
 
-/// Angles over several contact lines.
+/// Statistics of the angles of several contact lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AngleSummary {
     /// Mean angle in degrees, NaN where none was measured.
     pub mean_deg: f64,
     /// Standard deviation over the contact lines in degrees, 0 for a single one.
     pub spread_deg: f64,
-    /// Standard error of the mean in degrees: the larger of the fits' and the spread's.
+    /// Standard error of the mean in degrees: the larger of that of the fits and that of the spread.
     pub uncertainty_deg: f64,
-    /// Contact lines with an angle.
+    /// Number of contact lines with an angle.
     pub measured: usize,
-    /// Contact lines without one.
+    /// Number of contact lines without one.
     pub failed: usize,
 }
 
@@ -328,7 +326,7 @@ pub fn summarize(lines: &[ContactLine]) -> AngleSummary {
     let mean_deg = good.iter().map(|line| line.angle_deg).sum::<f64>() / count;
     let squares: f64 = good.iter().map(|line| (line.angle_deg - mean_deg).powi(2)).sum();
     let spread_deg = if measured > 1 { (squares / (count - 1.0)).sqrt() } else { squares.sqrt() };
-    // Both ends of a meniscus share one fit, so fits are not independent: their errors are averaged, not reduced.
+    // Both ends of a meniscus share one fit, so the fits are not independent: their errors are averaged, not reduced.
     let from_fits = (good.iter().map(|line| line.uncertainty_deg.powi(2)).sum::<f64>() / count).sqrt();
     let uncertainty_deg = if measured == 0 { f64::NAN } else { from_fits.max(spread_deg / count.sqrt()) };
     AngleSummary { mean_deg, spread_deg, uncertainty_deg, measured, failed: lines.len() - measured }

@@ -1,10 +1,9 @@
-//! Contours of a field on a regular grid by marching squares, joined to ordered polylines.
+//! Contours of a field on a regular grid by marching squares, joined into ordered polylines.
 //!
-//! The high side of the field (the wetting phase, where the field is the color) lies on the left of each polyline. Nodes
-//! without a value (NaN) cut the contour off: it ends there. Vertices lie on the edges of the grid, at the root of the
-//! cubic through four nodes where they exist, else of the linear interpolation. Saddles are decided by the mean of the
-//! four nodes (Lorensen and Cline 1987; Nielson and Hamann 1991). Periodic axes are followed across the seam, so a polyline
-//! may leave the box; images are those next to its first vertex.
+//! The high side of the field (the wetting phase, if the field is the color) lies on the left of each polyline. Contours end at nodes without a value (NaN).
+//! Vertices lie on grid edges, at the root of the cubic through four nodes where these exist, else of the linear interpolation. Saddles are resolved by the
+//! mean of the four nodes (Lorensen and Cline 1987; Nielson and Hamann 1991). On periodic axes contours continue across the seam, so a polyline may leave the
+//! box; periodic images are chosen nearest to its first vertex.
 
 use super::lattice::Lattice;
 use super::polyline::Polyline;
@@ -18,16 +17,15 @@ struct Edge {
     axis: usize,
 }
 
-/// Vertices nearer to each other than this part of the spacing are one: where the level passes through a node.
+/// Vertices closer to each other than this fraction of the spacing coincide: the level passes through a node.
 const SAME_VERTEX: f64 = 1e-9;
 
-/// Marks an edge at which no segment begins.
+/// Marks an edge at which no segment starts.
 const NO_EDGE: usize = usize::MAX;
 
 /// Contours of `values` (one per node of `lattice`, NaN where there is none) at `level`.
 ///
-/// Open lines come before closed ones, each group in the order of the grid. A line round a periodic axis is open, its
-/// last vertex the image of the first.
+/// Open lines come before closed ones, each group in grid order. A line that spans a periodic axis is open, its last vertex the image of the first.
 pub fn contour(lattice: &Lattice, values: &[f64], level: f64) -> Vec<Polyline> {
     let tracer = Tracer { lattice, values, level };
     let mut next = vec![NO_EDGE; 2 * lattice.len()];
@@ -65,7 +63,7 @@ impl Tracer<'_> {
         value.is_finite().then_some(value - self.level)
     }
 
-    /// Up to two segments of the cell whose lower left node is (i, j), as pairs of edge numbers, the high side left.
+    /// Up to two segments of the cell whose lower left node is (i, j), as pairs of edge numbers, the high side on the left.
     fn segments_of_cell(&self, i: usize, j: usize) -> [Option<(usize, usize)>; 2] {
         let corner = |di: isize, dj: isize| self.value(i as isize + di, j as isize + dj);
         let (Some(v0), Some(v1), Some(v2), Some(v3)) = (corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)) else {
@@ -97,7 +95,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Follows the segments from `first` on, taking them out of `next`.
+    /// Follows the segments from `first`, removing them from `next`.
     fn walk(&self, first: usize, next: &mut [usize]) -> Option<Polyline> {
         let period = self.lattice.period();
         let mut points: Vec<Vec2> = vec![self.vertex(first)];
@@ -118,7 +116,7 @@ impl Tracer<'_> {
         (points.len() > 1).then_some(Polyline { points, closed })
     }
 
-    /// Where the level lies on an edge, in m.
+    /// Position of the level on an edge, in m.
     fn vertex(&self, edge: usize) -> Vec2 {
         let node = edge / 2;
         let edge = Edge { i: node % self.lattice.counts[0], j: node / self.lattice.counts[0], axis: edge % 2 };
@@ -141,7 +139,7 @@ impl Tracer<'_> {
     }
 }
 
-/// The root in [0, 1] of the cubic through the values at -1, 0, 1, 2, those at 0 and 1 having unlike signs.
+/// The root in [0, 1] of the cubic through the values at -1, 0, 1, 2, where those at 0 and 1 have opposite signs.
 fn cubic_root(values: [f64; 4]) -> f64 {
     let [before, a, b, after] = values;
     let cubic = |t: f64| {
@@ -150,7 +148,7 @@ fn cubic_root(values: [f64; 4]) -> f64 {
             + after * (t + 1.0) * t * (t - 1.0) / 6.0
     };
     let (mut low, mut high) = (0.0, 1.0);
-    // Bisection keeps the vertex on its edge whatever the cubic does; 40 halvings are far below rounding of the field.
+    // Bisection keeps the vertex on its edge whatever the cubic does; 40 halvings are far below the rounding of the field.
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
         if (cubic(middle) >= 0.0) == (a >= 0.0) { low = middle } else { high = middle }
@@ -201,7 +199,7 @@ mod tests {
         let lines = contour(&lattice, &values, 0.0);
         assert_eq!(lines.len(), 1);
         assert!(!lines[0].closed);
-        // A drop on a floor with the drop on the left runs from the right contact point over the top to the left one.
+        // On a floor, with the drop on its left, the contour runs from the right contact point over the top to the left one.
         assert!(lines[0].points[0].x > 0.4 && lines[0].points[lines[0].points.len() - 1].x < -0.4);
     }
 
@@ -214,7 +212,7 @@ mod tests {
         let lines = contour(&lattice, &values, 0.0);
         assert_eq!(lines.len(), 1);
         assert!(lines[0].closed);
-        // The polygon inside of the circle lacks a little area.
+        // The polygon inscribed in the circle is a little smaller.
         assert!((lines[0].signed_area() - 0.09 * std::f64::consts::PI).abs() < 0.002);
     }
 

@@ -1,27 +1,27 @@
-//! Menisci between a floor and a lid: what the depth of a chip adds to the curvature in the plane.
+//! Menisci between a floor and a lid: the contribution of the depth of a chip to the curvature.
 //!
-//! Floor and lid at the distance b with the angles θ_f and θ_l add (cos θ_f + cos θ_l)/b to the curvature of every meniscus. Where a wall and a
-//! plate meet at angles that sum to less than 90 degrees, the wetting phase stays in the corner, and the curvature is that at which the energy balances as
-//! the meniscus of a duct advances ([`Depth::curvature`]).
+//! Floor and lid at the distance b with the angles θ_f and θ_l add (cos θ_f + cos θ_l)/b to the curvature of every meniscus. Where a wall and a plate have
+//! contact angles that sum to less than 90 degrees, the wetting phase stays in the corner, and the curvature follows from the energy balance of an advancing
+//! meniscus in a duct ([`Depth::curvature`]).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A uniform depth with the contact angles of walls, floor and lid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Depth {
-    /// Distance of floor and lid in m.
+    /// Distance between floor and lid in m.
     depth: f64,
-    /// Sum of the cosines of floor and lid over their distance, in 1/m.
+    /// Sum of the cosines at floor and lid over their distance, in 1/m.
     transverse: f64,
-    /// What the films in the corners of a duct take, over its depth and twice the cosine of its walls, in 1/m; 0 without films.
+    /// Contribution T of the corner films to the balance of a duct, over its depth and twice the cosine of its walls, in 1/m; 0 without films.
     corners: f64,
-    /// Share of the curvature in the plane that acts on an interface which meets floor and lid only.
+    /// Fraction of the in-plane curvature that acts on an interface which meets floor and lid only.
     share: f64,
     /// The smaller angle of floor and lid in rad.
     wettest: f64,
 }
 
-/// Depths of more throats than this, or of fewer than one in it, are told.
+/// Depths of more than this many throat widths, or of less than one over this, cause a warning.
 const MOST: f64 = 1e3;
 
 impl Depth {
@@ -34,7 +34,7 @@ impl Depth {
         Self { depth, transverse, corners, share: share(plates), wettest }
     }
 
-    /// Distance of floor and lid in m.
+    /// Distance between floor and lid in m.
     pub fn distance(&self) -> f64 {
         self.depth
     }
@@ -44,27 +44,28 @@ impl Depth {
         self.wettest
     }
 
-    /// Thickness, over the depth, of each of the films that menisci leave on floor and lid as the wetting phase recedes from these at a capillary number of
-    /// that phase (Bretherton 1961, 1.34 Ca^(2/3) of half the depth); none where their angles hold a receding line, 9 Ca ln(x/l) < θ³ (Cox 1986; Voinov 1976).
+    /// Thickness over depth of each of the films that a receding meniscus leaves on floor and lid at a capillary number of the wetting phase (Bretherton
+    /// 1961, 1.34 Ca^(2/3) of half the depth); `None` where the contact angle permits a receding line, 9 Ca ln(x/l) < θ³ (Cox 1986; Voinov 1976).
     pub fn film_left(&self, capillary_number: f64) -> Option<f64> {
-        /// Logarithm of a depth over a molecular length.
+        /// Logarithm of the ratio of a depth to a molecular length.
         const LOGARITHM: f64 = 9.0;
         let leaves = 9.0 * capillary_number * LOGARITHM > self.wettest.powi(3);
         (leaves && capillary_number > 0.0).then(|| 0.67 * capillary_number.powf(2.0 / 3.0))
     }
 
-    /// Whether the films in its corners are those of another depth of the same distance.
+    /// Whether the corner films are those of another depth with the same distance between floor and lid.
     pub(crate) fn has_films_of(&self, other: &Self) -> bool {
-        /// Angles are written in degrees.
+        /// Angles are given in degrees.
         const SAME: f64 = 1e-9;
         (self.corners - other.corners).abs() <= SAME * self.corners.abs().max(other.corners.abs())
     }
 
-    /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose curvature in the plane is `plane` (1/m), above 0 where it bulges into the wetting phase.
+    /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose in-plane curvature is `plane` (1/m), above 0 where it bulges into the wetting phase.
     ///
-    /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of
-    /// Mayer and Stowe (1965) and Princen (1969, 1970): with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is what the films
-    /// in its corners take. A meniscus that bulges the other way in the plane has no films. It grows with `plane`, so that one depth changes no order.
+    /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of Mayer
+    /// and Stowe (1965) and Princen (1969, 1970): with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is the contribution of
+    /// the corner films. A meniscus of negative in-plane curvature has no films. The result increases with `plane`, so that a uniform depth preserves the
+    /// order of events.
     pub fn curvature(&self, plane: f64) -> f64 {
         let both = plane + self.transverse;
         if plane <= 0.0 || self.corners == 0.0 {
@@ -73,16 +74,16 @@ impl Depth {
         0.5 * (both + (both * both - 4.0 * self.corners * plane).max(0.0).sqrt())
     }
 
-    /// The same of an interface that meets floor and lid only: that of a flat drop or bubble.
+    /// The same for an interface that meets floor and lid only: that of a flat drop or bubble.
     ///
-    /// Over the depth it is an arc, whose tilted parts are curved less in the plane, κ times the cosine of the tilt: at 0 degrees π/4 of it acts (Park and Homsy 1984).
-    /// That holds where the drop is flat; as the curvature in the plane exceeds 1/b, all of it acts.
+    /// Over the depth the interface is an arc, whose tilted parts have a smaller in-plane curvature, κ times the cosine of the tilt: at 0 degrees π/4 of it
+    /// acts (Park and Homsy 1984). This holds for flat drops; as the in-plane curvature exceeds 1/b, all of it acts.
     pub fn curvature_of_drop(&self, plane: f64) -> f64 {
         let flat = 1.0 / (1.0 + (plane * self.depth).powi(4));
         plane + self.transverse - (1.0 - self.share) * flat * plane
     }
 
-    /// The curvature in the plane of a meniscus for which (p_n - p_w)/σ is `curvature` (1/m).
+    /// The in-plane curvature of a meniscus for which (p_n - p_w)/σ is `curvature` (1/m).
     pub fn plane(&self, curvature: f64) -> f64 {
         if curvature <= self.transverse || self.corners == 0.0 {
             return curvature - self.transverse;
@@ -91,7 +92,7 @@ impl Depth {
     }
 }
 
-/// What to say of a depth that makes all throats slits between floor and lid, or between their walls; all in m.
+/// The warning about a depth at which all throats are slits between floor and lid, or between their walls; all in m.
 pub(crate) fn odd(depth: f64, narrowest: f64, widest: f64) -> Option<String> {
     let advice = "is it in m? An etched or molded chip has 20e-6 to 400e-6";
     match () {
@@ -105,7 +106,7 @@ pub(crate) fn odd(depth: f64, narrowest: f64, widest: f64) -> Option<String> {
     }
 }
 
-/// The depth-averaged flow of a duct of the width `ratio` b with the factor `profile`, over that of its series, less 1.
+/// The depth-averaged flow of a duct of the width `ratio` b with the factor `profile`, relative to that of the series, minus 1.
 pub(crate) fn duct_error(ratio: f64, profile: f64) -> f64 {
     let z = ratio * (3.0 / profile).sqrt();
     (1.0 - z.tanh() / z) / duct_factor(ratio) - 1.0
@@ -114,7 +115,7 @@ pub(crate) fn duct_error(ratio: f64, profile: f64) -> f64 {
 /// The mean cosine of the tilt of a circular arc between plates that it meets at these angles (rad):
 /// (π - θ_f - θ_l + sin θ_f cos θ_f + sin θ_l cos θ_l)/(2 (cos θ_f + cos θ_l)).
 fn share([floor, lid]: [f64; 2]) -> f64 {
-    /// Below, the arc is straight.
+    /// Below this the arc is straight.
     const STRAIGHT: f64 = 1e-6;
     let cosines = floor.cos() + lid.cos();
     if cosines.abs() < STRAIGHT {
@@ -123,9 +124,9 @@ fn share([floor, lid]: [f64; 2]) -> f64 {
     (PI - floor - lid + floor.sin() * floor.cos() + lid.sin() * lid.cos()) / (2.0 * cosines)
 }
 
-/// Cross-section of the film in a right corner between surfaces with two contact angles (rad), over the squared radius of its surface; 0 where there is none.
-/// For equal angles cos θ (cos θ - sin θ) - (π/4 - θ). It is also what the film takes from the balance of a duct: the wetted lengths l cos θ less the
-/// arc and the cross-section, over the radius.
+/// Cross-section of the film in a right-angled corner between surfaces with two contact angles (rad), over the squared radius of its surface; 0 if there is
+/// no film. For equal angles cos θ (cos θ - sin θ) - (π/4 - θ). It is also the term of the film in the balance of a duct: the wetted lengths l cos θ minus
+/// the arc and the cross-section, over the radius.
 pub fn corner_area(one: f64, other: f64) -> f64 {
     let arc = FRAC_PI_2 - one - other;
     if arc <= 0.0 {
@@ -135,27 +136,27 @@ pub fn corner_area(one: f64, other: f64) -> f64 {
     cos1 * cos2 - 0.5 * (sin1 * cos1 + sin2 * cos2 + arc)
 }
 
-/// Share of the flow between two plates at the distance b that is left in a duct of the width `ratio` b: with Q = F b³ w/(12 μ) dp/dx,
-/// F = 1 - 192/(π⁵ x) Σ tanh(n π x/2)/n⁵ over odd n [White, Viscous Fluid Flow, section 3-3.3]; x² for a narrow one.
+/// Flow through a duct of the width `ratio` b relative to that between two plates at the distance b: with Q = F b³ w/(12 μ) dp/dx, F = 1 - 192/(π⁵ x) Σ
+/// tanh(n π x/2)/n⁵ over odd n [White, Viscous Fluid Flow, section 3-3.3]; x² for a narrow duct.
 pub fn duct_factor(ratio: f64) -> f64 {
     /// Σ 1/n⁵ over odd n, 31/32 ζ(5).
     const ALL: f64 = 1.004_523_762_795_139_6;
-    /// Terms of the rest, which falls as e^(-n π).
+    /// Terms of the remainder, which decays as e^(-n π).
     const TERMS: [f64; 6] = [1.0, 3.0, 5.0, 7.0, 9.0, 11.0];
     if ratio < 1.0 {
-        // The same duct, turned.
+        // The same duct, rotated.
         return ratio * ratio * duct_factor(1.0 / ratio);
     }
     let rest: f64 = TERMS.iter().map(|n| 2.0 / (((n * PI * ratio).exp() + 1.0) * n.powi(5))).sum();
     1.0 - 192.0 / (PI.powi(5) * ratio) * (ALL - rest)
 }
 
-/// The factor α on inertia and on the viscous stress in the plane with which the depth-averaged flow through a duct of the width `ratio` b is that of its
-/// series: 1 - tanh z/z = F with z² = 3 x²/α. It goes from 1 for a deep duct to 1.19 for a wide one, where a parabolic profile gives 6/5.
+/// The factor α on inertia and on the in-plane viscous stress with which the depth-averaged flow through a duct of the width `ratio` b equals that of the
+/// series: 1 - tanh z/z = F with z² = 3 x²/α. It varies from 1 for a deep duct to 1.19 for a wide one, where a parabolic profile gives 6/5.
 pub fn profile_factor(ratio: f64) -> f64 {
-    /// A double has 53 bits.
+    /// A double has a 53-bit significand.
     const HALVINGS: usize = 53;
-    /// Beyond, the difference between both flows is rounding.
+    /// Outside this range the difference between both flows is rounding.
     const RATIOS: [f64; 2] = [1e-3, 1e3];
     let ratio = ratio.clamp(RATIOS[0], RATIOS[1]);
     let exact = duct_factor(ratio);
@@ -193,7 +194,7 @@ mod tests {
         for (ratio, factor) in known {
             assert!((duct_factor(ratio) - factor).abs() < 6e-7, "{ratio}: {}", duct_factor(ratio));
         }
-        // A deep one is plane: F = x² (1 - .63 x + ...).
+        // A deep duct is plane: F = x² (1 - .63 x + ...).
         assert!((duct_factor(1e-3) / 1e-6 - 1.0).abs() < 7e-4);
         assert!((duct_factor(1.0 - 1e-9) - duct_factor(1.0 + 1e-9)).abs() < 1e-8);
     }
@@ -243,7 +244,7 @@ mod tests {
             (60.0, 10.0, 1.094804),
         ];
         for (deg, radius, pressure) in known {
-            // The mean over the depth lies a segment of the arc over b farther out than the contact line.
+            // The mean over the depth lies outside the contact line by the area of the arc's segment over b.
             let (half, arc) = (f64::to_radians(90.0 - deg), 0.5 / f64::to_radians(deg).cos());
             let mean = radius + arc * arc * (half - half.sin() * half.cos());
             let found = with_one_angle(deg).curvature_of_drop(1.0 / (mean * B)) * B;

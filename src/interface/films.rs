@@ -1,24 +1,24 @@
 //! Films of the wetting phase in the corners between the walls of a chip and its floor and lid.
 //!
-//! Where a wall and a plate meet at angles that sum to less than 90 degrees, the wetting phase stays in the corner behind an arc of the radius
-//! r = σ/(p_n - p_w) that meets both at their angles. A film that is that thin compared with the bends of its wall is straight along it. As the
-//! capillary pressure falls, films grow until they meet in the narrowest gap; from there on no film rests.
+//! Where a wall and a plate have contact angles that sum to less than 90 degrees, the wetting phase stays in the corner behind an arc of the radius r =
+//! σ/(p_n - p_w) that meets both at their contact angles. A film thin compared with the radius of curvature of its wall is straight along it. As the
+//! capillary pressure falls, films swell until they meet in the narrowest gap; below that pressure no film is stable.
 //!
-//! Left out: the curvature of a film along its wall, contact lines that hysteresis pins.
+//! Not included: the curvature of a film along its wall, and contact lines pinned by hysteresis.
 
 use super::depth::corner_area;
 
-/// A film in a right corner between a wall and a plate, at a radius of its surface of 1: areas go with the square of the radius.
+/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface: areas scale with the square of the radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
     /// Cross-section.
     area: f64,
-    /// How far it reaches along the wall and along the plate.
+    /// Wetted lengths on the wall and on the plate.
     arms: [f64; 2],
 }
 
 impl Corner {
-    /// The film between a wall and a plate with these contact angles in rad through the wetting phase; none where they sum to 90 degrees or more.
+    /// The film between a wall and a plate with these contact angles in rad through the wetting phase; `None` if they sum to 90 degrees or more.
     pub fn new(wall: f64, plate: f64) -> Option<Self> {
         let area = corner_area(wall, plate);
         let arms = [plate.cos() - wall.sin(), wall.cos() - plate.sin()];
@@ -38,22 +38,22 @@ impl WallFilms {
         Self { corners: plates.map(|plate| Corner::new(wall, plate)) }
     }
 
-    /// Whether there is any.
+    /// Whether there is any film.
     pub fn exist(&self) -> bool {
         self.corners.iter().any(Option::is_some)
     }
 
-    /// Cross-section of both at a radius of 1.
+    /// Cross-section of both at unit radius.
     pub fn area(&self) -> f64 {
         self.sum(|corner| corner.area)
     }
 
-    /// How far both reach along the wall at a radius of 1.
+    /// Wetted lengths of both on the wall at unit radius.
     pub fn along_wall(&self) -> f64 {
         self.sum(|corner| corner.arms[0])
     }
 
-    /// How far they reach along the floor and along the lid at a radius of 1.
+    /// Wetted lengths on floor and lid at unit radius.
     pub fn along_plates(&self) -> [f64; 2] {
         self.corners.map(|corner| corner.map_or(0.0, |corner| corner.arms[1]))
     }
@@ -63,8 +63,9 @@ impl WallFilms {
     }
 }
 
-/// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, floor and lid at the distance `depth` (m): on a wall, on the
-/// floor or on the lid, whichever comes first as the pressure falls. For equal angles 2 (cos θ - sin θ) over the smaller of width and depth; 0 where there is no film.
+/// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m): on a wall, on the
+/// floor or on the lid, whichever comes first as the pressure falls. For equal angles 2 (cos θ - sin θ) over the smaller of width and depth; 0 if there is no
+/// film.
 pub fn meeting(width: f64, depth: f64, walls: [&WallFilms; 2]) -> f64 {
     let on_walls = walls.map(|wall| wall.along_wall() / depth);
     let [one, other] = walls.map(WallFilms::along_plates);
@@ -98,7 +99,7 @@ mod tests {
     #[test]
     fn arcs_of_unequal_angles_end_where_their_arms_do() {
         let corner = corner(20.0, 55.0);
-        // From the contact on the wall to that on the plate by the chord, the segment of the arc and the triangle.
+        // Between the contacts on wall and plate: the triangle under the chord minus the segment of the arc.
         let [wall, plate] = corner.arms;
         let arc = FRAC_PI_2 - (20.0_f64 + 55.0).to_radians();
         let chord = wall.hypot(plate);

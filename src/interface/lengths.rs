@@ -1,9 +1,9 @@
-//! Lengths: of the interface, and of the walls that each phase covers.
+//! Lengths of the interface and of the walls covered by each phase.
 
 use super::polyline::Polyline;
 use crate::math::Vec2;
 
-/// Color above which a place is of the wetting phase: the level of the interface.
+/// Color above which a point belongs to the wetting phase: the level of the interface.
 pub(crate) const WETTING_COLOR: f64 = 0.5;
 
 /// Total length of `contours` in m.
@@ -11,25 +11,25 @@ pub fn interface_length(contours: &[Polyline]) -> f64 {
     contours.iter().map(Polyline::length).sum()
 }
 
-/// Lengths of wall that touch the phases.
+/// Lengths of wall in contact with the phases.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WettedLength {
-    /// Length under the wetting phase in m.
+    /// Length in contact with the wetting phase in m.
     pub wetting: f64,
-    /// Length under the non-wetting phase in m.
+    /// Length in contact with the non-wetting phase in m.
     pub non_wetting: f64,
 }
 
-/// A piece of wall.
+/// A short segment of wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallSample {
-    /// Middle of the piece in m.
+    /// Its midpoint in m.
     pub point: Vec2,
     /// Its length in m.
     pub length: f64,
 }
 
-/// Cuts wall outlines into pieces no longer than `longest` (m).
+/// Divides wall outlines into segments no longer than `longest` (m).
 pub fn wall_samples(outlines: &[Polyline], longest: f64) -> Vec<WallSample> {
     let mut samples = Vec::new();
     for (a, b) in outlines.iter().flat_map(Polyline::segments) {

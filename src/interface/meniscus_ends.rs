@@ -1,9 +1,9 @@
 //! Contact angles of menisci under a body force in any direction: a drop on an incline, a drop under gravity.
 //!
-//! Along a static meniscus the curvature is κ = κ_0 + (Δρ/σ) g·(x − x_0) (Young and Laplace). The turn of its tangent is the integral of that
-//! over the arc length, φ = φ_0 + κ_0 s + (Δρ/σ) ∫ g·(x − x_0) ds, linear in the two unknowns where the places x are those of the
-//! contour. The fit is followed to the wall. Without a force it is a circle. Beside it stands [`contact`](super::contact), which fits distances and has
-//! error bars: on an interface that the flow bends the two differ, so that the angles of moving drops keep their own. Leaves out the bending of a moving interface by the flow.
+//! Along a static meniscus the curvature is κ = κ_0 + (Δρ/σ) g·(x − x_0) (Young-Laplace). The rotation of its tangent is the integral of that over the arc
+//! length, φ = φ_0 + κ_0 s + (Δρ/σ) ∫ g·(x − x_0) ds, linear in the two unknowns if the positions x are those of the contour. The fit is extrapolated to the
+//! wall. Without a force it is a circle. Unlike [`contact`](super::contact), which fits distances and has error bars, this one is used for moving drops:
+//! where the flow bends the interface the two differ. The bending of a moving interface by the flow is neglected.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -21,15 +21,15 @@ pub(crate) struct MeniscusEnd {
     pub(crate) angle_deg: f64,
 }
 
-/// Steps from the first point used to the wall are this share of its distance.
+/// Step from the first fitted point to the wall, over its distance.
 const STEP: f64 = 0.01;
 
-/// Steps after which a meniscus that has not met the wall is given up: twenty distances, as for circles.
+/// Maximum number of steps: a meniscus that has not met the wall within twenty distances is given up, as for circles.
 const MOST_STEPS: usize = 2000;
 
-/// Both ends of each open contour that come to the wall and are long enough for a fit.
+/// Both ends of each open contour that lie on the wall and are long enough for a fit.
 ///
-/// `force` = Δρ g/σ in 1/m², Δρ the density of the wetting less that of the other phase.
+/// `force` = Δρ g/σ in 1/m², Δρ the density of the wetting minus that of the other phase.
 pub(crate) fn ends_under_force(
     contours: &[Polyline],
     wall: &dyn Fn(Vec2) -> WallPoint,
@@ -53,12 +53,12 @@ pub(crate) fn ends_under_force(
     ends
 }
 
-/// The fit to `points` that run away from the wall, followed back to it.
+/// The fit to `points` that run away from the wall, extrapolated back to it.
 fn follow(points: &[Vec2], side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoint, force: Vec2) -> Option<MeniscusEnd> {
     if points.len() < LEAST_POINTS {
         return None;
     }
-    // The wetting phase is on the left of the way from the wall at one end, and on its right at the other.
+    // In the direction away from the wall the wetting phase is on the left at one end, and on the right at the other.
     let sign = if side == WettingSide::Left { 1.0 } else { -1.0 };
     let from = points[0];
     let (mut s, mut turn, mut last) = (0.0, 0.0, None::<f64>);
@@ -82,7 +82,7 @@ fn follow(points: &[Vec2], side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoint, 
     }
     let [phi, kappa] = matrix.cholesky()?.solve(&right).into();
     let slope = |x: Vec2, phi: f64| (Vec2::new(phi.cos(), phi.sin()), kappa + sign * force.dot(&(x - from)));
-    // The curve from the first point on, and how far the points lie beside it on the mean.
+    // Integrates the curve from the first point, and the mean offset of the points from it.
     let (mut x, mut angle, mut beside) = (from, phi, Vec2::zeros());
     for pair in points.windows(2) {
         let length = (pair[1] - pair[0]).norm();
@@ -127,8 +127,8 @@ mod tests {
         WallPoint { distance: x.y, normal: Vec2::y() }
     }
 
-    /// A meniscus that leaves the floor at (1, 0) at the angle of a drop to its left and goes on until it comes back; a point in thirty
-    /// of its steps, as far apart as those of a grid.
+    /// A meniscus that leaves the floor at (1, 0) at the angle of a drop to its left and continues until it returns; every thirtieth step gives a point, as
+    /// far apart as those of a grid.
     fn meniscus(degrees: f64, kappa: f64, force: Vec2) -> (Polyline, f64) {
         let (mut x, mut phi) = (Vec2::x(), std::f64::consts::PI - degrees.to_radians());
         let (mut points, ds) = (vec![x], 1e-3);
@@ -156,7 +156,7 @@ mod tests {
             assert_eq!(ends.len(), 2, "{degrees}");
             assert!((ends[0].position - Vec2::x()).norm() < 0.01, "{degrees}: {ends:?}");
             for (end, exact) in ends.iter().zip([degrees, other]) {
-                // Chords of 0.03 stand for the curve.
+                // The curve is approximated by chords of 0.03.
                 assert!((end.angle_deg - exact).abs() < 0.2, "{degrees}: {exact} {ends:?}");
             }
         }

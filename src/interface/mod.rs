@@ -1,10 +1,10 @@
-//! The interface and its contact lines as geometry: no solver, no particle, no file.
+//! Geometry of the interface and its contact lines, independent of solvers, particles and files.
 //!
-//! Lines: a field on the nodes of a [`lattice`] has a [`contour`], an ordered [`polyline`] with its curvature, which is cut off at a [`wall`];
-//! [`lengths`] of interface and wetted wall. Shapes: the [`circle`] and the [`arc`] of Young and Laplace through ordered points with standard errors, the
-//! [`weighted_circle`] through a stencil of points, free or held to an angle at a wall, the [`cap`] of a drop on a flat wall.
-//! Contact lines: [`contact`] has their angles with error bars, [`meniscus_ends`] those of interfaces that move under a body force.
-//! [`menisci`] between two walls: place, burst, touch, overlap. A chip: its [`depth`], and the [`films`] in its corners.
+//! Lines: a field on the nodes of a [`lattice`] has a [`contour`], an ordered [`polyline`] with its curvature, clipped at a [`wall`]; [`lengths`] of
+//! interface and wetted wall. Shapes: the [`circle`] and the Young-Laplace [`arc`] fitted to ordered points with standard errors, the [`weighted_circle`]
+//! through a stencil of points, free or with a prescribed contact angle, the [`cap`] of a drop on a flat wall. Contact lines: [`contact`] has their angles
+//! with error bars, [`meniscus_ends`] those of interfaces moving under a body force. [`menisci`] between two walls: position, burst, touch, overlap. A chip:
+//! its [`depth`], and the [`films`] in its corners.
 
 pub(crate) mod arc;
 pub mod cap;

@@ -1,14 +1,14 @@
-//! Ordered lines of points, such as an interface: length, area, curvature, and the interface that belongs to a level of the smoothed color.
+//! Ordered lines of points, such as an interface: length, area, curvature, and the interface reconstructed from a level of the smoothed color.
 
 use super::circle;
 use crate::math::{LINE_MOMENT, Vec2, perpendicular};
 
-/// An ordered line of points, the high side on its left.
+/// An ordered line of points, the high side of the field on its left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polyline {
     /// Vertices in m; the first one is not repeated at the end of a closed line.
     pub points: Vec<Vec2>,
-    /// Whether the last vertex is joined to the first one.
+    /// Whether the last vertex is connected to the first one.
     pub closed: bool,
 }
 
@@ -18,14 +18,14 @@ impl Polyline {
         self.segments().map(|(a, b)| (b - a).norm()).sum()
     }
 
-    /// The segments from vertex to vertex, with the closing one of a closed line.
+    /// The segments between vertices, including the closing one of a closed line.
     pub(crate) fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
         let count = self.points.len();
         let segments = if self.closed && count > 1 { count } else { count.saturating_sub(1) };
         (0..segments).map(move |i| (self.points[i], self.points[(i + 1) % count]))
     }
 
-    /// Area in m² on the left of a closed line: positive where it runs counter-clockwise.
+    /// Area in m² on the left of a closed line: positive if it runs counter-clockwise.
     pub(crate) fn signed_area(&self) -> f64 {
         let from = self.points.first().copied().unwrap_or_else(Vec2::zeros);
         0.5 * self.segments().map(|(a, b)| (a - from).perp(&(b - from))).sum::<f64>()
@@ -33,12 +33,12 @@ impl Polyline {
 
     /// Curvature in 1/m at each vertex, by a circle fitted to the vertices within `reach` (m) along the line.
     ///
-    /// Positive for a drop of the high side. NaN where fewer than five vertices are in reach.
+    /// Positive for a drop of the high side. NaN with fewer than five vertices within reach.
     pub(crate) fn curvature(&self, reach: f64) -> Vec<f64> {
         (0..self.points.len())
             .map(|i| {
                 let window = self.window(i, reach);
-                // Five points for three unknowns: fewer leave the curvature to the noise.
+                // Five points for three unknowns: with fewer the curvature is dominated by noise.
                 if window.len() < 5 { f64::NAN } else { circle::fit(&window).map_or(f64::NAN, |fit| fit.curvature) }
             })
             .collect()
@@ -46,15 +46,15 @@ impl Polyline {
 
     /// The interface whose color, smoothed with `smoothing_length` (m), has this line as its level 1/2.
     ///
-    /// Smoothing draws the level towards the center of curvature, see [`LINE_MOMENT`]. The curvature is that within 2.5 smoothing lengths.
+    /// Smoothing displaces the level towards the center of curvature, see [`LINE_MOMENT`]. The curvature is that within 2.5 smoothing lengths.
     pub(crate) fn on_interface(&self, smoothing_length: f64) -> Self {
         let count = self.points.len();
         let limit = 1.0 / smoothing_length;
         let moved = |(i, kappa): (usize, f64)| {
-            // A line that ends, or goes on through a periodic side, has no neighbor there.
+            // A line that ends, or continues across a periodic side, has no neighbor there.
             let near = |j: usize| {
-                let way = self.points[j] - self.points[i];
-                if way.norm() < smoothing_length { way } else { Vec2::zeros() }
+                let offset = self.points[j] - self.points[i];
+                if offset.norm() < smoothing_length { offset } else { Vec2::zeros() }
             };
             let (before, after) = (near((i + count - 1) % count), near((i + 1) % count));
             let into_high = perpendicular(after - before).try_normalize(f64::EPSILON * smoothing_length);
@@ -78,11 +78,11 @@ impl Polyline {
         };
         let walk = |forward: bool| -> Vec<Vec2> {
             let mut found = Vec::new();
-            let (mut at, mut way) = (i, 0.0);
+            let (mut at, mut length) = (i, 0.0);
             while let Some(next) = step(at, forward) {
-                way += (self.points[next] - self.points[at]).norm();
-                // A closed line shorter than the window must not be gone round twice.
-                if way > reach || found.len() >= count / 2 {
+                length += (self.points[next] - self.points[at]).norm();
+                // A closed line shorter than the window must not be traversed twice.
+                if length > reach || found.len() >= count / 2 {
                     break;
                 }
                 found.push(self.points[next]);

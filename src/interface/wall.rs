@@ -1,9 +1,9 @@
-//! What a measurement needs to know of a wall at a point of the plane, and contours cut off there.
+//! The properties of a wall needed at a point of the plane, and contours clipped at walls.
 
 use super::polyline::Polyline;
 use crate::math::{Vec2, perpendicular};
 
-/// The wall as seen from a point.
+/// The wall nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallPoint {
     /// Signed distance to the nearest wall in m: above 0 in the pore, below 0 in the solid.
@@ -19,7 +19,7 @@ impl From<(f64, Vec2)> for WallPoint {
     }
 }
 
-/// A wall that has turned away by more than this (sine) has an edge.
+/// The wall has an edge if its normal rotates by more than this (sine).
 const TURNED: f64 = 0.8;
 
 /// Cosine between the normals of both faces of an edge.
@@ -30,8 +30,8 @@ pub(crate) fn is_edge_between(wall: &dyn Fn(Vec2) -> WallPoint, behind: Vec2, ah
     wall(behind).normal.dot(&wall(ahead).normal) < BENT
 }
 
-/// Normal of the wall at a point `x` (m) of it; where an edge stands within `reach` (m) to the left, for someone who looks into the
-/// pore, or else to the right, of the face behind that.
+/// Normal of the wall at a point `x` (m) of it; if there is an edge within `reach` (m) to the left, looking into the pore, or else to the right, that of the
+/// face behind it.
 pub(crate) fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach: f64) -> Vec2 {
     let normal = wall(x).normal;
     let along = if left { perpendicular(normal) } else { -perpendicular(normal) };
@@ -41,25 +41,25 @@ pub(crate) fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool,
 
 /// The parts of `lines` in the pore, ending on the wall.
 ///
-/// Contour a field that goes on for a spacing or two into the solid and cut it here: a field that is missing at each
-/// node of the solid tears contours that meet the wall at a small angle into pieces.
+/// Contour a field that extends a spacing or two into the solid and clip it here: a field that is missing at the nodes of the solid breaks contours that meet
+/// the wall at a small angle into fragments.
 pub fn clip(lines: &[Polyline], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
     lines.iter().flat_map(|line| clip_line(line, wall)).collect()
 }
 
 fn clip_line(line: &Polyline, wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
-    let mut places: Vec<(Vec2, f64)> = line.points.iter().map(|&p| (p, wall(p).distance)).collect();
-    let Some(solid) = places.iter().position(|(_, d)| *d <= 0.0) else { return vec![line.clone()] };
+    let mut vertices: Vec<(Vec2, f64)> = line.points.iter().map(|&p| (p, wall(p).distance)).collect();
+    let Some(solid) = vertices.iter().position(|(_, d)| *d <= 0.0) else { return vec![line.clone()] };
     if line.closed {
-        // A closed line begins in the solid, so that no piece is cut where the line happened to begin.
-        places.rotate_left(solid);
-        places.push(places[0]);
+        // A closed line starts in the solid, so that it is not cut at its arbitrary first vertex.
+        vertices.rotate_left(solid);
+        vertices.push(vertices[0]);
     }
     let mut pieces = Vec::new();
     let mut piece: Vec<Vec2> = Vec::new();
-    for (k, &(here, d)) in places.iter().enumerate() {
-        if k > 0 && (places[k - 1].1 > 0.0) != (d > 0.0) {
-            let (before, d_before) = places[k - 1];
+    for (k, &(here, d)) in vertices.iter().enumerate() {
+        if k > 0 && (vertices[k - 1].1 > 0.0) != (d > 0.0) {
+            let (before, d_before) = vertices[k - 1];
             piece.push(before + (here - before) * (d_before / (d_before - d)));
         }
         if d > 0.0 {

@@ -1,11 +1,11 @@
-//! Circles through weighted points by linear least squares: free, held to an angle at a wall, and through a given point.
+//! Circles through weighted points by linear least squares: free, at a given angle to a wall, and through a given point.
 //!
-//! Beside the fit of [`circle`](super::circle), which minimizes distances and has standard errors: this one is a solve of three unknowns, cheap
-//! enough for every particle in every step, its weights let points come and go smoothly, and it can be held to a contact angle.
+//! Unlike the fit of [`circle`](super::circle), which minimizes distances and has standard errors, this one is a linear solve for three unknowns, cheap
+//! enough for every particle in every step; its weights let points enter and leave smoothly, and the contact angle can be prescribed.
 //!
-//! A circle through points (u, v) in the frame of tangent and normal obeys v = a + b u + k (u² + v²)/2 with curvature
-//! k/√(1 + b² − 2ka): linear in a, b and k, and exact for circles. At a wall the circle leaves the contact point with the
-//! angle θ of the wetting law, so that only its curvature and the place of the contact point along the wall are free.
+//! A circle through points (u, v) in the frame of tangent and normal obeys v = a + b u + k (u² + v²)/2 with curvature k/√(1 + b² − 2ka): linear in a, b and
+//! k, and exact for circles. At a wall the circle leaves the contact point at the angle θ of the wetting law, so that only its curvature and the position of
+//! the contact point along the wall are free.
 
 use std::f64::consts::PI;
 
@@ -13,31 +13,31 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use crate::math::{Vec2, perpendicular};
 
-/// Fewest points of a free fit: three unknowns and some redundancy.
+/// Minimum number of points of a free fit: three unknowns and some redundancy.
 const FEWEST: usize = 5;
 
-/// Most steps of the search for the contact point; a few do.
+/// Maximum number of Newton steps for the contact point; a few suffice.
 const ITERATIONS: usize = 12;
 
-/// The contact point is found when it moves by less than this share of the stencil.
+/// The iteration for the contact point has converged when it moves by less than this fraction of the stencil.
 const CONVERGED: f64 = 1e-9;
 
-/// Fewest points of a fit from the wall: two unknowns and some redundancy. A line that moves fast parts the particles at its
-/// tip, and few pairs span the interface there.
+/// Minimum number of points of a fit from the wall: two unknowns and some redundancy. A fast line separates the particles at its tip, where few pairs span
+/// the interface.
 pub(crate) const FEWEST_FROM_CONTACT: usize = 3;
 
 /// A point that a circle is fitted to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WeightedPoint {
-    /// Its number among the points of the interface.
+    /// Its index among the points of the interface.
     pub(crate) index: usize,
-    /// Its place in m, relative to the origin of the fit.
+    /// Its position in m, relative to the origin of the fit.
     pub(crate) x: Vec2,
     /// Its weight.
     pub(crate) weight: f64,
 }
 
-/// The circle v = a + b u + k (u² + v²)/2 in the frame of `tangent` and `normal`, its origin where that of the points was.
+/// The circle v = a + b u + k (u² + v²)/2 in the frame of `tangent` and `normal`, with the origin of the points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WeightedCircle {
     a: f64,
@@ -48,7 +48,7 @@ pub(crate) struct WeightedCircle {
 }
 
 impl WeightedCircle {
-    /// Weighted least squares through `near`, none through fewer than five points; `normal` is about that of the interface.
+    /// Weighted least squares through `near`, `None` for fewer than five points; `normal` is approximately that of the interface.
     pub(crate) fn through(near: &[WeightedPoint], normal: Vec2) -> Option<Self> {
         if near.len() < FEWEST {
             return None;
@@ -65,13 +65,13 @@ impl WeightedCircle {
         Some(Self { a: solution[0], b: solution[1], k: solution[2], tangent, normal })
     }
 
-    /// k/√(1 + b² − 2ka) in 1/m, positive for a drop on the side of `normal`; none where there is no real circle.
+    /// k/√(1 + b² − 2ka) in 1/m, positive for a drop on the side of `normal`; `None` if there is no real circle.
     pub(crate) fn curvature(&self) -> Option<f64> {
         let square = 1.0 + self.b * self.b - 2.0 * self.k * self.a;
         (square > 0.0).then(|| self.k / square.sqrt())
     }
 
-    /// The point of the circle nearest to `x` (m) and the unit normal there, none for the center.
+    /// The point of the circle nearest to `x` (m) and the unit normal there, `None` at the center.
     ///
     /// F = a + b u + k (u² + v²)/2 − v is quadratic, and on the line through x along ∇F it is F − t|∇F| + k t²/2.
     pub(crate) fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
@@ -83,8 +83,8 @@ impl WeightedCircle {
         if steep == 0.0 || square < 0.0 {
             return None;
         }
-        let way = 2.0 * off / (steep + square.sqrt());
-        let closest = Vec2::new(u, v) - way / steep * slope(u, v);
+        let t = 2.0 * off / (steep + square.sqrt());
+        let closest = Vec2::new(u, v) - t / steep * slope(u, v);
         let normal = -slope(closest.x, closest.y).try_normalize(0.0)?;
         let turned = |y: Vec2| y.x * self.tangent + y.y * self.normal;
         Some((turned(closest), turned(normal)))
@@ -102,10 +102,9 @@ pub(crate) struct WallFrame {
 
 /// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
 ///
-/// `contact` in m from the point that `near` is relative to. With the contact point right, the circle
-/// v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² + v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and
-/// 180 degrees the circle touches the wall: moved along the wall by δ the circle then moves by k u δ alone, which is what the points
-/// farther from the wall tell. None where the points do not determine the fit.
+/// `contact` in m relative to the origin of `near`. With the right contact point, the circle v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² +
+/// v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and 180 degrees the circle is tangent to the wall: a shift δ along the wall changes v
+/// by k u δ only, which is determined by the points farther from the wall. `None` if the points do not determine the fit.
 pub(crate) fn fit_from_contact(
     near: &[WeightedPoint],
     contact: Vec2,
@@ -130,7 +129,7 @@ pub(crate) fn fit_from_contact(
         let matrix = matrix.cholesky()?;
         let [offset, kappa] = matrix.solve(&missed).into();
         found = Some(kappa);
-        // Beyond the top of a low drop the circle would move backwards: there the angle alone says how far.
+        // Beyond the top of a low drop the circle would move backwards: there the slope from the angle alone is used.
         let slope = (sin + kappa * matrix.solve(&moved)[0]).max(0.5 * sin);
         let step = -offset / slope;
         if !(step.abs() > CONVERGED * extent) || !(slope > 0.0) {
@@ -141,10 +140,10 @@ pub(crate) fn fit_from_contact(
     found.map(|kappa| (kappa, delta))
 }
 
-/// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the
-/// normal `wall`; `normal` is about that of the interface.
+/// Angle in rad at which the circle through `anchor` (m, relative to the origin of `near`) meets the wall with the normal `wall`; `normal` is approximately
+/// that of the interface.
 ///
-/// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²). None where the points do not determine it.
+/// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²). `None` if the points do not determine it.
 pub(crate) fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
     let tangent = -perpendicular(normal);
     let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());

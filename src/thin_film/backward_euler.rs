@@ -1,61 +1,60 @@
-//! Implicit steps of a film on a grid: backward Euler, Newton's method with a line search, and the choice of the step.
+//! Implicit time steps of a film on a grid: backward Euler, Newton's method with a line search, and step size control.
 //!
-//! A step solves G(v) = 0 for the heights v at its end. Order 1 in time. Newton's method ends where the residual is small, or where its
-//! next change of the heights is, or where no change lowers a residual that is the rounding of its terms: on fine grids and in long steps
-//! rounding keeps the residual of a fourth derivative from being small. The factors of a
-//! Jacobian serve as long as each change lowers the residual by a factor: they cost several times a solution with them. No factors are kept
-//! from step to step: a step depends on the heights, the time and the proposed step only, so that a run resumed from them gives the
-//! same bits as an unbroken one.
+//! A step solves G(v) = 0 for the heights v at its end. Order 1 in time. Newton's method ends when the residual or the next change of the heights is small,
+//! or when no change reduces a residual at the level of the rounding of its terms: on fine grids and in long steps rounding keeps the residual of a fourth
+//! derivative from being small. The factors of a Jacobian are reused as long as each change reduces the residual by a given factor: a factorization costs
+//! several times a solution. No factors are kept between steps: a step depends on the heights, the time and the proposed step only, so that a resumed run is
+//! bitwise identical to an uninterrupted one.
 
 use super::sparse::Factors;
 
-/// Newton's method stops below this norm of the residual or of a change: √∫ r² over the wall, in scaled heights. The paper takes 1e-9
-/// of the plain 2-norm over the nodes, which rounding keeps a fine grid from [Pang2022, Sect. 6].
+/// Newton's method stops below this norm of the residual or of a change: √∫ r² over the wall, in scaled heights. The paper takes 1e-9 of the plain 2-norm
+/// over the nodes, which rounding makes unattainable on fine grids [Pang2022, Sect. 6].
 pub(crate) const RESIDUAL: f64 = 1.0e-9;
-/// More factorizations than this mean a step that is too large; a healthy one takes 1 or 2.
+/// A step with more factorizations than this is too large; normally 1 or 2 suffice.
 pub(crate) const FACTORS: u32 = 12;
-/// The factors of a Jacobian are used again after a change that left at most this share of the residual.
+/// The factors of a Jacobian are reused after a change that reduced the residual to at most this fraction.
 const KEPT: f64 = 0.2;
-/// Shortest share of a Newton step that is tried.
+/// Smallest fraction of a Newton step in the line search.
 const SHORTEST: f64 = 1.0 / 64.0;
-/// By how much a step is cut that was not solved.
+/// Factor by which a step is reduced after a failure.
 const CUT: f64 = 0.3;
-/// Shortest step over the first one of the rule.
+/// Smallest step over the first one of the rule.
 const SMALLEST: f64 = 1.0e-6;
 
-/// Most steps that are tried again: films that move need a few dozen, films long at rest can need two for each step that is done.
+/// Maximum number of rejected steps: moving films need a few dozen, films long at rest up to two per accepted step.
 const MOST_REJECTED: u64 = 2000;
 
-/// Steps beyond these are not counted ahead.
+/// Limit of the estimate of the number of steps.
 const MOST_COUNTED: f64 = 1.0e8;
 
-/// What a step has to solve.
+/// The nonlinear system of a step.
 pub trait Balance {
-    /// G(v), for a step of length `dt` that begins at the heights `old`.
+    /// G(v), for a step of length `dt` that starts from the heights `old`.
     fn residual(&self, v: &[f64], old: &[f64], dt: f64) -> Vec<f64>;
 
     /// √∫ v² over the wall.
     fn norm(&self, v: &[f64]) -> f64;
 
-    /// The norm of the residual in heights.
+    /// The norm of the residual in units of height.
     fn size(&self, residual: &[f64]) -> f64;
 
-    /// What rounding of its terms leaves of G at `v` at most, in the norm of [`size`](Self::size).
+    /// Upper bound of the rounding of G at `v`, in the norm of [`size`](Self::size).
     fn rounding(&self, v: &[f64], dt: f64) -> f64;
 
-    /// The factors of the Jacobian J of G at `v`; none where J is singular.
+    /// The factors of the Jacobian J of G at `v`; `None` if J is singular.
     fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors>;
 
-    /// Whether a solution can be a film.
+    /// Whether a solution is physically a film.
     fn acceptable(&self, v: &[f64]) -> bool;
 }
 
-/// How long steps are.
+/// Step size control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepRule {
     /// The first step.
     pub first: f64,
-    /// Most by which a step may be longer than the one before.
+    /// Largest ratio of successive steps.
     pub growth: f64,
     /// Longest step over the present time.
     pub share: f64,
@@ -73,16 +72,16 @@ impl StepRule {
     }
 }
 
-/// A step that Newton's method does not solve, however short.
+/// A step for which Newton's method fails, however short it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NotSolved {
     /// The step.
     pub dt: f64,
-    /// Norm of the residual reached; absent where Newton's method ended at heights below 0, which are no film.
+    /// Norm of the final residual; absent if Newton's method ended at negative heights, which are not a film.
     pub residual: Option<f64>,
 }
 
-/// Heights on their way.
+/// State of the time integration.
 #[derive(Debug, Clone)]
 pub struct BackwardEuler {
     /// Heights at the nodes.
@@ -96,7 +95,7 @@ pub struct BackwardEuler {
     pub iterations: u64,
     /// Factorizations so far.
     pub factors: u64,
-    /// Steps tried again with less.
+    /// Number of rejected steps.
     pub rejected: u64,
 }
 
@@ -106,7 +105,7 @@ impl BackwardEuler {
         Self { height, time: 0.0, next: rule.first, rule, iterations: 0, factors: 0, rejected: 0 }
     }
 
-    /// How many steps lead to `end` where none is rejected.
+    /// Number of steps to `end` if none is rejected.
     pub(crate) fn steps_to(&self, end: f64) -> f64 {
         let (mut time, mut next, mut count) = (self.time, self.next, 0.0);
         while time < end && count < MOST_COUNTED {
@@ -118,7 +117,7 @@ impl BackwardEuler {
         count
     }
 
-    /// Does one step that ends at `until` or before; landing there is exact. Gives back its length.
+    /// Does one step that ends at `until` or before; `until` is reached exactly. Returns its length.
     ///
     /// # Errors
     /// [`NotSolved`]; the state is kept.
@@ -127,9 +126,9 @@ impl BackwardEuler {
             let left = until - self.time;
             let longest = self.rule.longest.min((self.rule.share * self.time).max(self.rule.first));
             let wanted = self.next.min(longest);
-            // Equal steps miss their end by rounding only: that is no step of its own.
+            // Equal steps miss the end by rounding only, which must not become a step of its own.
             let lands = wanted * (1.0 + 1.0e-9) >= left;
-            // Two halves rather than a step and a sliver.
+            // Two halves rather than a full step and a tiny remainder.
             let dt = if lands { left } else { wanted.min(0.5 * left).max(0.5 * wanted) };
             match self.solve(balance, dt) {
                 Ok(height) => {
@@ -157,8 +156,7 @@ impl BackwardEuler {
         Ok(())
     }
 
-    /// Newton's method with a line search on the norm of the residual; the residual reached where it fails, none where it ends at heights
-    /// that are no film.
+    /// Newton's method with a line search on the norm of the residual. On failure the final residual, `None` if the heights are not a film.
     fn solve(&mut self, balance: &(impl Balance + ?Sized), dt: f64) -> Result<Vec<f64>, Option<f64>> {
         let mut v = self.height.clone();
         let mut residual = balance.residual(&v, &self.height, dt);
@@ -187,7 +185,7 @@ impl BackwardEuler {
                 ends_by_rounding = true;
                 break;
             }
-            // Factors of other heights are worth no search: new ones are.
+            // Old factors are not worth a line search: new ones are computed instead.
             let shortest = if is_new { SHORTEST } else { 1.0 };
             let mut share = 1.0;
             let found = loop {
@@ -214,7 +212,7 @@ impl BackwardEuler {
                 None => {}
             }
         }
-        // A NaN is no film either.
+        // A NaN is not a film either.
         let is_solved = size < RESIDUAL || ends_by_rounding;
         match (is_solved && size.is_finite(), balance.acceptable(&v)) {
             (false, _) => Err(Some(size)),

@@ -1,12 +1,11 @@
-//! Thin-film equations in cells between walls, plane or about an axis, by conservative differences.
+//! Thin-film equations in cells between walls, plane or axisymmetric, by conservative differences.
 //!
-//! h_t = −(1/xᵐ) ∂ₓ( xᵐ M ∂ₓ p ), m = 0 in the plane and 1 about an axis, with the mobility M and the disjoining pressure Π of the
-//! [`Model`]. Geometric: p = ∇²h̄ − Bo h̄ and h = (1 − α²∇²)² h̄, solved for h̄; all others: p = ∇²h + Π(h) − Bo h, solved for h.
+//! h_t = −(1/xᵐ) ∂ₓ( xᵐ M ∂ₓ p ), m = 0 in the plane and 1 about an axis, with the mobility M and the disjoining pressure Π of the [`Model`]. Geometric: p =
+//! ∇²h̄ − Bo h̄ and h = (1 − α²∇²)² h̄, solved for h̄; all others: p = ∇²h + Π(h) − Bo h, solved for h.
 //!
-//! Pressures stand in the cells, fluxes on the faces between them; none passes the walls at both ends. The mobility on a face
-//! vanishes with the lower of its two heights, so that no cell is emptied: 2a²b²/(a + b) for h³ and ab for h²
-//! (Zhornitskaya and Bertozzi 2000). Order 2 in space, 1 in time. About an axis the geometric equation has no partial wetting: its wetting
-//! parameter is known for plane droplets only.
+//! Pressures are defined in cells, fluxes on the faces between them; the flux through the walls at both ends is zero. The mobility on a face vanishes with
+//! the lower of its two heights, so that cells stay non-negative: 2a²b²/(a + b) for h³ and ab for h² (Zhornitskaya and Bertozzi 2000). Order 2 in space, 1 in
+//! time. About an axis the geometric equation has no partial wetting: its wetting parameter is known for plane droplets only.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +16,7 @@ pub use super::model::Model;
 use super::sparse::{Factors, Pattern, TooLarge};
 use crate::case::film::{FilmSymmetry, FilmWeights};
 
-/// Where the cells stand, and what flows in them.
+/// The grid and the equation on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
     /// Left end; 0 about an axis.
@@ -26,7 +25,7 @@ pub struct Layout {
     pub count: usize,
     /// Width of a cell.
     pub spacing: f64,
-    /// The film across the plane of the picture.
+    /// Symmetry of the film in the direction normal to the plane.
     pub symmetry: FilmSymmetry,
     /// Equation.
     pub model: Model,
@@ -34,14 +33,14 @@ pub struct Layout {
     pub bond: f64,
 }
 
-/// How many cells away the heights of other cells enter a balance; the geometric equation reaches one cell farther.
+/// Half-width of the stencil of a balance in cells; the geometric equation reaches one cell farther.
 const REACH: usize = 2;
 const GEOMETRIC_REACH: usize = 3;
-/// How many cells away heights are smoothed.
+/// Half-width of the smoothing stencil in cells.
 const SMOOTHING_REACH: usize = 2;
-/// A geometric film may dip below zero by this share of its largest height: rounding and truncation, no spurious root.
+/// Largest negative height of a geometric film over its largest height that is rounding and truncation rather than a spurious root.
 const NEGATIVE: f64 = -1.0e-4;
-/// Below this share of the largest height nothing is seen to move.
+/// Below this fraction of the largest height the velocity is set to zero.
 const BARE: f64 = 1.0e-3;
 
 /// The cells and their equation.
@@ -50,17 +49,16 @@ pub struct Cells {
     layout: Layout,
     /// Area or volume over height of each cell.
     size: Vec<f64>,
-    /// Size of each face over the cell width; the first and last one, at the walls, are 0.
+    /// Size of each face over the cell width; 0 for the first and last one, at the walls.
     face: Vec<f64>,
     /// The factors of (1 − α²∇²)² in the geometric equation.
     smoothing: Option<Factors>,
-    /// The places of the entries of Jacobians.
+    /// The sparsity pattern of the Jacobians.
     pattern: Pattern,
 }
 
 impl Cells {
-    /// Droplets in cells, with the heights that the equation is solved for; `weights` says whether cells hold their share of
-    /// the droplets or the height in their middle.
+    /// Droplets in cells, with the heights for which the equation is solved; `weights` selects cell averages or the heights at cell centers.
     pub fn new(layout: Layout, droplets: &[Droplet], weights: FilmWeights) -> Result<(Self, Vec<f64>), TooLarge> {
         let Layout { from, count, spacing, symmetry, model, .. } = layout;
         let edge = |i: usize| from + i as f64 * spacing;
@@ -104,7 +102,7 @@ impl Cells {
         self.layout.count
     }
 
-    /// The row of ∇² at a cell: the factors of the heights before, here and after.
+    /// The row of ∇² at a cell: the coefficients of the previous, the present and the next height.
     fn laplace_row(&self, i: usize) -> [f64; 3] {
         let (before, after) = (self.face[i] / self.size[i], self.face[i + 1] / self.size[i]);
         [before, -before - after, after]
@@ -116,7 +114,7 @@ impl Cells {
         (0..n).map(|i| (flow(i + 1) - flow(i)) / self.size[i]).collect()
     }
 
-    /// The row of (1 − α²∇²)² at a cell, from two cells before to two after; 1 alone where nothing is smoothed.
+    /// The row of (1 − α²∇²)² at a cell, from two cells before to two after; the identity without smoothing.
     fn smoothing_row(&self, i: usize) -> [f64; 5] {
         let Model::Geometric { alpha } = self.layout.model else { return [0.0, 0.0, 1.0, 0.0, 0.0] };
         let square = alpha * alpha;
@@ -140,7 +138,7 @@ impl Cells {
         let rows = (0..count).map(|row| self.smoothing_row(row));
         let values: Vec<f64> =
             rows.enumerate().flat_map(|(row, values)| within(row, SMOOTHING_REACH, count, values)).collect();
-        // The matrix is a product of two that are diagonally dominant, so its factors exist.
+        // The matrix is a product of two diagonally dominant ones, so its factors exist.
         Pattern::new(count, entries)?.factor(&values).ok_or(TooLarge(count))
     }
 
@@ -150,7 +148,7 @@ impl Cells {
         }
     }
 
-    /// h of the heights that are solved for.
+    /// h from the heights that are solved for.
     fn sharp(&self, v: &[f64]) -> Vec<f64> {
         if self.smoothing.is_none() {
             return v.to_vec();
@@ -162,14 +160,14 @@ impl Cells {
             .collect()
     }
 
-    /// p in every cell.
+    /// p in each cell.
     fn pressure(&self, v: &[f64]) -> Vec<f64> {
         let curvature = self.laplacian(v);
         let of = |(c, &h): (&f64, &f64)| c + self.layout.model.disjoining(h).0 - self.layout.bond * h;
         curvature.iter().zip(v).map(of).collect()
     }
 
-    /// The sum of the sizes of the terms that a cell's pressure is made of.
+    /// The sum of the magnitudes of the terms of a cell's pressure.
     fn pressure_terms(&self, i: usize, v: &[f64]) -> f64 {
         let at = |j: usize| v.get(j).map_or(0.0, |v| v.abs());
         let [before, here, after] = self.laplace_row(i).map(f64::abs);
@@ -182,12 +180,12 @@ impl Cells {
     }
 }
 
-/// The columns of the entries of a row, from `reach` cells before it to as many after, walls permitting.
+/// The columns of a row, from `reach` cells before it to `reach` after, limited by the walls.
 fn columns(row: usize, reach: usize, count: usize) -> std::ops::Range<usize> {
     row.saturating_sub(reach)..(row + reach + 1).min(count)
 }
 
-/// The values of a row from `reach` cells before it to as many after, without those behind a wall.
+/// The values of a row from `reach` cells before it to `reach` after, without those beyond a wall.
 fn within<const WIDTH: usize>(
     row: usize,
     reach: usize,
@@ -198,7 +196,7 @@ fn within<const WIDTH: usize>(
 }
 
 impl Balance for Cells {
-    /// The rate of each cell's height: H(v − vⁿ) + Δt/V Σ fluxes.
+    /// The balance of each cell: H(v − vⁿ) + Δt/V Σ fluxes.
     fn residual(&self, v: &[f64], old: &[f64], dt: f64) -> Vec<f64> {
         let change: Vec<f64> = v.iter().zip(old).map(|(v, old)| v - old).collect();
         let mut residual = self.sharp(&change);
@@ -222,7 +220,7 @@ impl Balance for Cells {
         self.norm(&smoothed)
     }
 
-    /// Terms of the residual by their sizes: heights, and flows by the differences of pressures that cancel at rest.
+    /// Terms of the residual by magnitude: heights, and flows by the differences of pressures that cancel at rest.
     fn rounding(&self, v: &[f64], dt: f64) -> f64 {
         let sharp = self.sharp(v);
         let pressure: Vec<f64> = (0..v.len()).map(|i| self.pressure_terms(i, v)).collect();
@@ -247,7 +245,7 @@ impl Balance for Cells {
         for face in 1..n {
             let (mobility, by_height, by_sharp) = self.face_mobility(face, v, &sharp);
             let drive = pressure[face] - pressure[face - 1];
-            // Derivatives of the flow through this face by the heights from three cells before it to three after.
+            // Derivatives of the flow through this face with respect to the heights from three cells before it to three after.
             let mut flow = [0.0; 2 * GEOMETRIC_REACH];
             for (side, cell) in [face - 1, face].into_iter().enumerate() {
                 let sign = if side == 0 { -1.0 } else { 1.0 };
@@ -278,7 +276,7 @@ impl Balance for Cells {
         self.pattern.factor(&values)
     }
 
-    /// Films of slip and precursor models are above zero; the geometric one nearly so.
+    /// Films of slip and precursor models are positive; the geometric one nearly so.
     fn acceptable(&self, v: &[f64]) -> bool {
         let least = match self.layout.model {
             Model::Geometric { .. } => NEGATIVE * v.iter().copied().fold(0.0, f64::max),
@@ -298,7 +296,7 @@ impl Grid for Cells {
         self.size.clone()
     }
 
-    /// The slope is that of the heights of both neighbors; at the ends the film is level.
+    /// The slope is the central difference; at the ends the film is level.
     fn slope_and_curvature(&self, v: &[f64]) -> [Vec<f64>; 2] {
         let n = v.len();
         let at = |i: usize| v[i.clamp(1, n) - 1];
@@ -365,7 +363,7 @@ mod tests {
                 let mut found = product;
                 cells.jacobian(&v, dt).unwrap().solve(&mut found);
                 let error = found.iter().zip(&change).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                // The central difference is good to rounding over its step.
+                // The central difference is accurate to rounding over its step.
                 assert!(error < 1.0e-6, "{symmetry:?} {model:?}: {error}");
             }
         }
@@ -387,7 +385,7 @@ mod tests {
                     assert!(now < energy, "{symmetry:?} {model:?}: {energy} {now}");
                     energy = now;
                 }
-                // Newton's method leaves a residual of 1e-9 a step.
+                // Newton's method leaves a residual of 1e-9 per step.
                 assert!((film.mass() / mass - 1.0).abs() < 1.0e-8, "{symmetry:?} {model:?}");
             }
         }

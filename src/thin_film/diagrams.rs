@@ -1,23 +1,22 @@
-//! The diagrams of a film: its height over place and time, the ways of particles, the contact line, the self-similar shape, the shape at
-//! rest and the law of Cox and Voinov: Figs. 3 to 6 and 9 to 12 of Pang and Ó Náraigh 2022, for any film. SI units, except where both
-//! axes are powers or ratios.
+//! The diagrams of a film: height as a function of position and time, particle trajectories, the contact line, the self-similar shape, the equilibrium shape
+//! and the Cox-Voinov law: Figs. 3 to 6 and 9 to 12 of Pang and Ó Náraigh 2022, for any film. SI units, except where both axes are powers or ratios.
 
 use super::history::{COX_VOINOV, CoxVoinov};
 use super::observed::ObservedFilm;
 use super::similarity::{EXPONENT, fit, shoot};
 use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
 
-/// Profiles that are laid over one another.
+/// Number of profiles plotted in one diagram.
 const SHAPES: usize = 6;
-/// Profiles older than this share of the run have had time to forget their beginning.
+/// Profiles later than this fraction of the run no longer depend on the initial shape.
 const FORGETTING: f64 = 1.0e-3;
-/// Places of the self-similar shape.
-const PLACES: i32 = 200;
+/// Number of points of the self-similar shape.
+const SIMILARITY_POINTS: i32 = 200;
 
-const PLACE: &str = "x in m";
+const POSITION: &str = "x in m";
 const TIME: &str = "time in s";
 
-/// All diagrams that there is something to show in.
+/// All diagrams for which there are data.
 pub(crate) fn all(observed: &ObservedFilm) -> Vec<Diagram> {
     let found = [
         Some(space_time(observed)),
@@ -42,7 +41,7 @@ fn trace(name: impl Into<String>, stroke: Stroke, points: impl IntoIterator<Item
     Trace { name: name.into(), stroke, points: points.into_iter().collect() }
 }
 
-/// Height over place and time, with the contact line.
+/// Height as a function of position and time, with the contact line.
 fn space_time(observed: &ObservedFilm) -> Diagram {
     let (scales, history) = (observed.surroundings.scales, &observed.history);
     let map = Map {
@@ -53,11 +52,11 @@ fn space_time(observed: &ObservedFilm) -> Diagram {
     };
     let line = history.records.iter().map(|record| [record.position * scales.length, record.time * scales.time]);
     let traces = vec![trace("contact line", Stroke::Full, line)];
-    let title = "Height over place and time";
-    Diagram { name: "space-time", title, x: linear(PLACE), y: logarithmic(TIME), map: Some(map), traces }
+    let title = "Height over position and time";
+    Diagram { name: "space-time", title, x: linear(POSITION), y: logarithmic(TIME), map: Some(map), traces }
 }
 
-/// Tanner's law through the last of some points.
+/// Tanner's law through the last point.
 fn tanner(points: &[[f64; 2]], exponent: f64, name: &str) -> Option<Trace> {
     let last = points.last()?;
     let law = points.iter().map(|point| [point[0], last[1] * (point[0] / last[0]).powf(exponent)]);
@@ -67,17 +66,17 @@ fn tanner(points: &[[f64; 2]], exponent: f64, name: &str) -> Option<Trace> {
 fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
     let (scales, frames) = (observed.surroundings.scales, &observed.history.frames);
     let count = frames.first()?.ways.len();
-    let way = |i: usize| {
+    let trajectory = |i: usize| {
         frames.iter().filter_map(move |frame| Some([frame.time * scales.time, frame.ways.get(i)? * scales.length]))
     };
-    let last: Vec<[f64; 2]> = way(count.checked_sub(1)?).collect();
-    let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, way(i))).collect();
+    let last: Vec<[f64; 2]> = trajectory(count.checked_sub(1)?).collect();
+    let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, trajectory(i))).collect();
     if observed.surroundings.rest.is_none() {
         traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
     }
     traces.push(trace("last particle", Stroke::Full, last));
     let title = "Ways of particles right of the middle";
-    Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces })
+    Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces })
 }
 
 fn contact_line(observed: &ObservedFilm) -> Diagram {
@@ -99,10 +98,10 @@ fn contact_line(observed: &ObservedFilm) -> Diagram {
     }
     traces.push(trace("contact line", Stroke::Full, line));
     let title = "The contact line over time";
-    Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces }
+    Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces }
 }
 
-/// Profiles in the variables that make one of them, and the solution of the equation without regularization.
+/// Profiles in self-similar variables, in which they collapse, and the solution of the equation without regularization.
 fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
     if !observed.surroundings.is_self_similar {
         return None;
@@ -111,26 +110,27 @@ fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
     let shape = fit(&profile, time, foot.position)?;
     let frames: Vec<_> = observed.history.frames.iter().filter(|frame| frame.time > FORGETTING * time).collect();
     let step = frames.len().div_ceil(SHAPES).max(1);
-    let places = observed.frame_places();
+    let positions = observed.frame_places();
     let mut traces: Vec<Trace> = frames
         .iter()
         .rev()
         .step_by(step)
         .map(|frame| {
             let stretch = frame.time.powf(EXPONENT);
-            let points = places.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
+            let points = positions.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
             let name = format!("{} s", two_digits(frame.time * observed.surroundings.scales.time));
             trace(name, Stroke::Full, points.map(|(x, h)| [x / stretch, h * stretch]))
         })
         .collect();
     let end = foot.position / time.powf(EXPONENT);
-    let eta: Vec<f64> = (0..=PLACES).map(|i| 1.2 * end * f64::from(i) / f64::from(PLACES)).collect();
+    let eta: Vec<f64> =
+        (0..=SIMILARITY_POINTS).map(|i| 1.2 * end * f64::from(i) / f64::from(SIMILARITY_POINTS)).collect();
     let mut law = shoot(shape.height, shape.curvature, &eta);
-    // It never touches down: past its lowest place it rises again, where there is no droplet any more.
+    // It never touches down: beyond its minimum it rises again, where there is no droplet any more.
     let lowest = (1..law.len()).find(|&i| law[i] > law[i - 1]).unwrap_or(law.len());
     law.truncate(lowest);
     traces.push(trace("f''' = eta/(7 f^2)", Stroke::Dashed, eta.iter().zip(law).map(|(eta, f)| [*eta, f])));
-    // Beyond, there is nothing but the wall.
+    // Beyond the droplet there is only the wall.
     traces.iter_mut().for_each(|trace| trace.points.retain(|point| point[0] < 1.6 * end));
     let (x, y) = (linear("eta = x t^(-1/7), scaled"), linear("t^(1/7) h, scaled"));
     Some(Diagram { name: "similarity", title: "Profiles in similarity variables", x, y, map: None, traces })
@@ -142,13 +142,13 @@ fn rest(observed: &ObservedFilm) -> Option<Diagram> {
     let profile = observed.profile();
     let found = profile.x.iter().zip(&profile.height).map(|(x, h)| [x * scales.length, h * scales.height]);
     let known = profile.x.iter().map(|x| [x * scales.length, droplet.height(x - surroundings.right) * scales.height]);
-    // Lines of some hundred points; a million would make a file that no browser opens.
+    // A few hundred points per line keep the file small enough for a browser.
     let every = profile.x.len().div_ceil(800).max(1);
     let traces = vec![
         trace("at the end", Stroke::Full, found.step_by(every)),
         trace("closed form", Stroke::Dashed, known.step_by(every)),
     ];
-    let (x, y) = (linear(PLACE), linear("height in m"));
+    let (x, y) = (linear(POSITION), linear("height in m"));
     Some(Diagram { name: "rest", title: "The droplet at rest", x, y, map: None, traces })
 }
 
@@ -169,7 +169,7 @@ fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
     Some(Diagram { name: "cox-voinov", title: "The law of Cox and Voinov", x, y, map: None, traces })
 }
 
-/// A number with two digits.
+/// A number with two significant digits.
 fn two_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
     if (1.0e-3..1.0e5).contains(&rounded) { format!("{rounded}") } else { format!("{rounded:e}") }

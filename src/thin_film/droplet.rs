@@ -11,7 +11,7 @@ pub struct Droplet {
     pub area: f64,
     /// Half of the base width r.
     pub half_width: f64,
-    /// Its middle c.
+    /// Its center c.
     pub center: f64,
 }
 
@@ -25,7 +25,7 @@ pub struct PointMasses {
 }
 
 impl Droplet {
-    /// Height in its middle.
+    /// Height at its center.
     pub(crate) fn peak(&self) -> f64 {
         0.75 * self.area / self.half_width
     }
@@ -45,21 +45,21 @@ impl Droplet {
         self.area * (0.5 + 0.75 * share - 0.25 * share.powi(3))
     }
 
-    /// Volume within the distance `r` of an axis through the middle, ∫ h 2πr dr.
+    /// Volume within the distance `r` of an axis through the center, ∫ h 2πr dr.
     pub fn volume_within(&self, r: f64) -> f64 {
         let share = (r / self.half_width).clamp(0.0, 1.0);
         TAU * self.peak() * self.half_width.powi(2) * (0.5 * share.powi(2) - 0.25 * share.powi(4))
     }
 }
 
-/// Particles on the nodes k Δx of a lattice through x = 0. Nodes without mass are left out: they would move nothing.
+/// Particles on the nodes k Δx of a lattice through x = 0. Nodes without mass are omitted, as they would have no effect.
 pub fn particles(droplets: &[Droplet], spacing: f64, rule: FilmWeights) -> PointMasses {
     let mut masses = PointMasses::default();
     let ends = |droplet: &Droplet| [droplet.center - droplet.half_width, droplet.center + droplet.half_width];
     let reach =
         droplets.iter().flat_map(ends).fold([f64::INFINITY, f64::NEG_INFINITY], |r, x| [r[0].min(x), r[1].max(x)]);
     let [first, last] = [(reach[0] / spacing).floor() as i64 - 1, (reach[1] / spacing).ceil() as i64 + 1];
-    // A cell that a droplet touches by rounding only has no mass.
+    // A cell that overlaps a droplet by rounding only has no mass.
     let least = 1.0e-12 * droplets.iter().map(|droplet| droplet.area).fold(0.0, f64::max);
     for node in first..=last {
         let x = node as f64 * spacing;

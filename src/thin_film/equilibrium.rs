@@ -1,8 +1,8 @@
 //! The equilibrium of a partially wetting droplet in closed form [Pang2022, Sect. 5, Appendix B], and the χ of a unit slope.
 //!
-//! In |x| < r: h̄ = B₁ cos(ξx) + B₂; beyond, h = 0 and h̄ falls like (C₁ + C₂|x|) e^(−|x|/α). With s = αξ, continuity of three
-//! derivatives gives ξr = π − 2 arctan s (the paper's transcendental equation solved), B₂ = B₁(1 + s²) and
-//! B₁ = A/(2(1 + s²)(r + 2α)). The tail is written from r outwards: C₁ and C₂ overflow for small α.
+//! In |x| < r: h̄ = B₁ cos(ξx) + B₂; beyond, h = 0 and h̄ decays as (C₁ + C₂|x|) e^(−|x|/α). With s = αξ, continuity of three derivatives gives ξr = π − 2
+//! arctan s (the solution of the paper's transcendental equation), B₂ = B₁(1 + s²) and B₁ = A/(2(1 + s²)(r + 2α)). The tail is expressed from r outwards: C₁
+//! and C₂ overflow for small α.
 
 use std::f64::consts::{PI, TAU};
 
@@ -25,9 +25,9 @@ pub struct Equilibrium {
     pub level: f64,
 }
 
-/// Range of ξ√A in which an equilibrium is looked for; χ rises all over it.
+/// Range of ξ√A in which an equilibrium is sought; χ increases over all of it.
 const XI_RANGE: (f64, f64) = (0.05, 60.0);
-/// Largest share by which ξ is raised in the search for a unit slope.
+/// Factor by which ξ is raised in the search for a unit slope.
 const SEARCH_STEP: f64 = 1.01;
 
 impl Equilibrium {
@@ -39,8 +39,8 @@ impl Equilibrium {
         Self { alpha, area, xi, radius, cosine, level: cosine * (1.0 + s * s) }
     }
 
-    /// The equilibrium for χ under gravity, which takes the Bond number off ξ²: κ² = ξ² − Bo stands in the place of ξ² in all
-    /// but ξ² = 2χA²/⟨h,h̄⟩². None where κ would leave the range of the search.
+    /// The equilibrium for χ under gravity, which reduces ξ² by the Bond number: κ² = ξ² − Bo replaces ξ² everywhere but in ξ² = 2χA²/⟨h,h̄⟩². `None` if κ is
+    /// outside the range of the search.
     pub fn under_gravity(alpha: f64, area: f64, wetting: f64, bond: f64) -> Option<Self> {
         let at = |kappa: f64| Self::of_wave_number(alpha, area, kappa);
         let excess = |kappa: f64| kappa * kappa + bond - 2.0 * wetting * (area / at(kappa).overlap()).powi(2);
@@ -49,7 +49,7 @@ impl Equilibrium {
 
     /// The equilibrium of unit mass with unit slope at π/(2ξ): it calibrates χ [Pang2022, Sect. 5].
     ///
-    /// B₁ξ = 1 is ξ² = 2(1 + s²)(π − 2 arctan s + 2s). None where α is too large for a droplet of unit slope.
+    /// B₁ξ = 1 is ξ² = 2(1 + s²)(π − 2 arctan s + 2s). `None` if α is too large for a droplet of unit slope.
     pub fn of_unit_slope(alpha: f64) -> Option<Self> {
         let excess = |xi: f64| {
             let s = alpha * xi;
@@ -87,13 +87,13 @@ impl Equilibrium {
         (edge + (slope + edge / self.alpha) * d) * (-d / self.alpha).exp()
     }
 
-    /// Where the tangent at the steepest place meets the wall, the contact line.
+    /// The contact line: the intersection of the tangent at the steepest point with the wall.
     pub(crate) fn foot(&self) -> f64 {
         PI / (2.0 * self.xi) + self.level / (self.cosine * self.xi)
     }
 }
 
-/// What tests compare with.
+/// Reference quantities for tests.
 #[cfg(test)]
 impl Equilibrium {
     /// h at x; it jumps to 0 at r.
@@ -102,7 +102,7 @@ impl Equilibrium {
         if x.abs() < self.radius { self.cosine * q * q * (self.xi * x).cos() + self.level } else { 0.0 }
     }
 
-    /// The equilibrium for the wetting parameter χ; none where ξ would leave the range of the search.
+    /// The equilibrium for the wetting parameter χ; `None` if ξ is outside the range of the search.
     pub(crate) fn of_wetting(alpha: f64, area: f64, wetting: f64) -> Option<Self> {
         let at = |xi: f64| Self::of_wave_number(alpha, area, xi);
         bisect(|xi| at(xi).wetting() - wetting, XI_RANGE.0, XI_RANGE.1).map(at)
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_unit_slope_gives_the_table_of_wetting_parameters() {
-        // alpha, chi, r, xi, B1, B2, overlap, foot; recomputed from the closed form with 30 digits, printed to 10.
+        // alpha, chi, r, xi, B1, B2, overlap, foot; evaluated from the closed form with 30 digits, printed to 10.
         let table = [
             [
                 0.2,
@@ -216,13 +216,13 @@ mod tests {
                         } else {
                             2.0
                         };
-                        // The end of h belongs to the droplet here.
+                        // The end point of h belongs to the droplet here.
                         weight * droplet.sharp_height(y * (1.0 - 1.0e-15)) * kernel.at(Order::Value, x - y)
                     };
                     (0..=n).map(term).sum::<f64>() * step / 3.0
                 })
                 .sum();
-            // Simpson's error at 20,000 cells is below 1e-13 of the height.
+            // Simpson's error with 20,000 cells is below 1e-13 of the height.
             assert!((smoothed - droplet.height(x)).abs() < 1.0e-12, "{x}: {smoothed} {}", droplet.height(x));
         }
     }

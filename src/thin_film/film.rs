@@ -1,4 +1,4 @@
-//! The two methods behind one face: what solver and output need of a film, scaled.
+//! A common interface to the two methods for the solver and the output. Scaled.
 
 use super::droplet::PointMasses;
 use super::grid_film::GridFilm;
@@ -6,7 +6,7 @@ use super::ode::{Integrator, Rates};
 use super::particles::{ParticleMethod, WIDEST_GAP, widest_gap};
 use super::profile::Profile;
 
-/// A film on its way.
+/// The state of a film.
 #[derive(Debug, Clone)]
 pub(crate) enum Film {
     /// Particles on an infinite line.
@@ -20,10 +20,10 @@ pub(crate) enum Film {
     Grid(Box<GridFilm>),
 }
 
-/// A step that was not found.
+/// A failed step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stuck {
-    /// No step of the particles is accurate enough, down to this one.
+    /// No step of the particles meets the tolerance, down to this one.
     Inaccurate(f64),
     /// Newton's method on the grid ended at heights below 0.
     Negative,
@@ -31,10 +31,10 @@ pub(crate) enum Stuck {
     Residual(f64),
 }
 
-/// What is seen of a film at its particles or nodes.
+/// The observed quantities of a film at its particles or nodes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Seen {
-    /// Places.
+    /// Positions.
     pub(crate) x: Vec<f64>,
     /// h̄.
     pub(crate) height: Vec<f64>,
@@ -61,7 +61,7 @@ impl Film {
         }
     }
 
-    /// Does one step that ends at `until` or before. Gives back its length.
+    /// Does one step that ends at `until` or before. Returns its length.
     ///
     /// # Errors
     /// [`Stuck`]; the state is kept.
@@ -79,11 +79,11 @@ impl Film {
         }
     }
 
-    /// Particles or nodes with what is known there.
+    /// Observed quantities at the particles or nodes.
     pub(crate) fn seen(&self) -> Seen {
         match self {
             Self::Particles { method, state } => {
-                // The sums need room to work in; this one is thrown away.
+                // The sums need work space, which is discarded.
                 let mut method = method.clone();
                 let mut velocity = vec![0.0; state.x.len()];
                 method.rates(&state.x, &mut velocity);
@@ -101,12 +101,12 @@ impl Film {
         }
     }
 
-    /// The profile at ascending places; nodes of a grid stand where they stand.
-    pub(crate) fn profile(&self, places: &[f64]) -> Profile {
+    /// The profile at ascending positions; on a grid at its nodes.
+    pub(crate) fn profile(&self, positions: &[f64]) -> Profile {
         match self {
             Self::Particles { method, state } => {
-                let s = method.profile(&state.x, places);
-                Profile { x: places.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
+                let s = method.profile(&state.x, positions);
+                Profile { x: positions.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
             }
             Self::Grid(film) => {
                 let (grid, height) = (film.grid(), film.state.height.clone());
@@ -116,29 +116,29 @@ impl Film {
         }
     }
 
-    /// Heights at ascending places, between nodes of a grid by straight lines; 0 beyond its ends.
-    pub(crate) fn heights(&self, places: &[f64]) -> Vec<f64> {
+    /// Heights at ascending positions, interpolated linearly between nodes of a grid; 0 beyond its ends.
+    pub(crate) fn heights(&self, positions: &[f64]) -> Vec<f64> {
         match self {
-            Self::Particles { method, state } => method.profile(&state.x, places).height,
+            Self::Particles { method, state } => method.profile(&state.x, positions).height,
             Self::Grid(film) => {
                 let (x, height) = (film.grid().nodes(), &film.state.height);
-                let at = |&place: &f64| {
-                    let after = x.partition_point(|&x| x < place);
+                let at = |&position: &f64| {
+                    let after = x.partition_point(|&x| x < position);
                     match after {
-                        0 => x.first().filter(|&&x| x == place).map_or(0.0, |_| height[0]),
+                        0 => x.first().filter(|&&x| x == position).map_or(0.0, |_| height[0]),
                         _ if after == x.len() => 0.0,
                         _ => {
-                            let share = (place - x[after - 1]) / (x[after] - x[after - 1]);
+                            let share = (position - x[after - 1]) / (x[after] - x[after - 1]);
                             height[after - 1] + share * (height[after] - height[after - 1])
                         }
                     }
                 };
-                places.iter().map(at).collect()
+                positions.iter().map(at).collect()
             }
         }
     }
 
-    /// The places of up to `count` particles from the middle one to the last, evenly chosen; none on a grid.
+    /// The positions of up to `count` particles from the middle one to the last, evenly chosen; empty on a grid.
     pub(crate) fn ways(&self, count: usize) -> Vec<f64> {
         let Self::Particles { state, .. } = self else { return Vec::new() };
         let right = &state.x[state.x.len() / 2..];
@@ -155,7 +155,7 @@ impl Film {
         }
     }
 
-    /// The last particle, where there are particles.
+    /// Position of the last particle; `None` on a grid.
     pub(crate) fn last_particle(&self) -> Option<f64> {
         match self {
             Self::Particles { state, .. } => state.x.last().copied(),
@@ -179,7 +179,7 @@ impl Film {
         }
     }
 
-    /// Slope of the contact angle that the lattice of particles imitates; none on a grid, or where it is taken off.
+    /// Slope of the spurious contact angle of the particle lattice; `None` on a grid, or if it is corrected.
     pub(crate) fn lattice_slope(&self) -> Option<f64> {
         match self {
             Self::Particles { method, .. } => (!method.corrects()).then(|| method.lattice_slope()),
@@ -187,7 +187,7 @@ impl Film {
         }
     }
 
-    /// Counts of the work by name.
+    /// Work counters by name.
     pub(crate) fn counts(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Particles { state, .. } => vec![

@@ -1,4 +1,4 @@
-//! A film on a grid: its equation and its state, and what is read off both.
+//! A film on a grid: its equation, its state and quantities derived from both.
 
 use super::backward_euler::{BackwardEuler, NotSolved, StepRule};
 use super::cells::Cells;
@@ -8,9 +8,9 @@ use super::ring::Ring;
 /// The equations.
 #[derive(Debug, Clone)]
 pub enum Equation {
-    /// The geometric equation on a periodic line, by the differences of its paper.
+    /// The geometric equation on a periodic line, with the differences of the paper.
     Ring(Ring),
-    /// Any equation in cells between walls, plane or about an axis.
+    /// Any equation in cells between walls, plane or axisymmetric.
     Cells(Cells),
 }
 
@@ -42,7 +42,7 @@ impl GridFilm {
         self.equation.grid()
     }
 
-    /// Does one step that ends at `until` or before. Gives back its length.
+    /// Does one step that ends at `until` or before. Returns its length.
     ///
     /// # Errors
     /// [`NotSolved`]; the state is kept.
@@ -55,7 +55,7 @@ impl GridFilm {
         self.state.run(self.equation.grid(), until)
     }
 
-    /// Mass: Σ heights × sizes; steps do not change it.
+    /// Mass: Σ heights × sizes, conserved by the steps.
     pub fn mass(&self) -> f64 {
         self.grid().sizes().iter().zip(&self.state.height).map(|(size, v)| size * v).sum()
     }
@@ -65,11 +65,11 @@ impl GridFilm {
         self.grid().energy(&self.state.height)
     }
 
-    /// Height in the middle, x = 0, by a parabola through the three nodes about it.
+    /// Height at x = 0, by a parabola through the three nodes around it.
     pub fn center_height(&self) -> f64 {
         let (x, v) = (self.grid().nodes(), &self.state.height);
         let after = x.partition_point(|&x| x < 0.0);
-        // The first node of a film about an axis stands half a cell off it; the mirrored one has the same height.
+        // The first node of an axisymmetric film is half a cell off the axis; its mirror image has the same height.
         if after == 0 {
             return if v.len() > 1 { (9.0 * v[0] - v[1]) / 8.0 } else { f64::NAN };
         }

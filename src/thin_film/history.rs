@@ -1,24 +1,23 @@
-//! The way of a contact line, kept at times that are even in the logarithm, and what is fitted to it. Scaled.
+//! The path of a contact line, recorded at times equidistant in the logarithm, and fits to it. Scaled.
 //!
-//! Records of a case stand at even times, which say little about a droplet whose steps grow a millionfold.
+//! Records of a case are equidistant in time, which is unsuitable for a droplet whose steps grow by a factor of a million.
 
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
 use super::profile::exponent;
 
-/// Records per tenfold of time.
+/// Records per decade of time.
 const PER_DECADE: f64 = 40.0;
-/// Frames per tenfold of time.
+/// Frames per decade of time.
 const FRAMES_PER_DECADE: f64 = 10.0;
 /// The first record.
 const FIRST: f64 = 1.0e-4;
-/// The law of Cox and Voinov is fitted to records in this window of scaled time. Its two constants depend on the window, which
-/// is why there is no choice.
+/// The Cox-Voinov law is fitted to records in this window of scaled time. Its two constants depend on the window, which is therefore fixed.
 pub(crate) const WINDOW: (f64, f64) = (1.0e-2, 1.0);
-/// Factor of the law in units of the scaled speed 3 Ca: θ³ = θₑ³ + 9 Ca ln(x/d).
+/// Coefficient of the law in units of the scaled speed 3 Ca: θ³ = θₑ³ + 9 Ca ln(x/d).
 pub(crate) const COX_VOINOV: f64 = 3.0;
-/// Fewest records for a fit.
+/// Minimum number of records for a fit.
 const FEWEST: usize = 8;
 
 /// The contact line at one time.
@@ -26,11 +25,11 @@ const FEWEST: usize = 8;
 pub(crate) struct Record {
     /// Time.
     pub time: f64,
-    /// Where the contact line is.
+    /// Position of the contact line.
     pub(crate) position: f64,
     /// Slope of the apparent contact angle.
     pub(crate) slope: f64,
-    /// Position of the last particle, where there are particles.
+    /// Position of the last particle, if there are particles.
     pub(crate) last: Option<f64>,
 }
 
@@ -39,13 +38,13 @@ pub(crate) struct Record {
 pub(crate) struct Frame {
     /// Time.
     pub time: f64,
-    /// Heights at places that stay the same.
+    /// Heights at fixed positions.
     pub heights: Vec<f64>,
-    /// Places of some particles on the right, the last one last; none where there are no particles.
+    /// Positions of some particles on the right, ascending up to the last one; empty without particles.
     pub ways: Vec<f64>,
 }
 
-/// Records and frames so far.
+/// Records and frames up to now.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct History {
     /// In the order of time.
@@ -54,14 +53,14 @@ pub(crate) struct History {
     pub(crate) frames: Vec<Frame>,
 }
 
-/// A law of Cox and Voinov: θ³ = θₑ³ + c v ln(x/d).
+/// A fitted Cox-Voinov law: θ³ = θₑ³ + c v ln(x/d).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CoxVoinov {
     /// c.
     pub(crate) factor: f64,
     /// d.
     pub(crate) length: f64,
-    /// Root mean square of the misfit of θ³.
+    /// Root mean square residual of θ³.
     pub(crate) error: f64,
 }
 
@@ -76,18 +75,18 @@ impl History {
         is_next(FRAMES_PER_DECADE, time, self.frames.last().map(|last| last.time))
     }
 
-    /// Exponent of a length in time from `start` on.
+    /// Exponent of the growth of a length in time, from `start` on.
     pub(crate) fn exponent(&self, start: f64, length: impl Fn(&Record) -> Option<f64>) -> Option<f64> {
         let later = self.records.iter().filter(|record| record.time >= start);
         exponent(later.filter_map(|record| Some((record.time, length(record)?))))
     }
 
-    /// The law of Cox and Voinov for the slope of rest `rest`, by linear least squares in c and c ln d over the window.
+    /// The Cox-Voinov law for the equilibrium slope `rest`, by linear least squares in c and c ln d over the window.
     pub(crate) fn cox_voinov(&self, rest: f64) -> Option<CoxVoinov> {
         self.cox_voinov_points(rest).map(|(law, _)| law)
     }
 
-    /// The law, and what it was fitted to: speed, place and cubed slope of the contact line.
+    /// The law and the fitted data: speed, position and cubed slope of the contact line.
     pub(crate) fn cox_voinov_points(&self, rest: f64) -> Option<(CoxVoinov, Vec<[f64; 3]>)> {
         let found: Vec<[f64; 3]> = self
             .records
@@ -113,10 +112,10 @@ impl History {
     }
 }
 
-/// Whether a time is the first in its share of a decade.
+/// Whether a time is the first one in its interval of a decade.
 fn is_next(per_decade: f64, time: f64, last: Option<f64>) -> bool {
-    let place = |time: f64| (per_decade * (time / FIRST).log10()).floor();
-    time >= FIRST && last.is_none_or(|last| place(time) > place(last))
+    let interval = |time: f64| (per_decade * (time / FIRST).log10()).floor();
+    time >= FIRST && last.is_none_or(|last| interval(time) > interval(last))
 }
 
 #[cfg(test)]
@@ -149,7 +148,7 @@ mod tests {
             Record { time, position, slope: cube.cbrt(), last: None }
         };
         let found = History { records: (0..1400).map(record).collect(), frames: Vec::new() }.cox_voinov(1.0).unwrap();
-        // Speeds by differences over 1/400 of a decade.
+        // Speeds from differences over 1/400 of a decade.
         assert!((found.factor / factor - 1.0).abs() < 1.0e-3 && (found.length / length - 1.0).abs() < 1.0e-3);
         assert!(found.error < 1.0e-3);
     }

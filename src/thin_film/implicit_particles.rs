@@ -1,8 +1,7 @@
-//! Implicit steps of particles: the matrix s − J of their rates, made sparse by unknowns that are added to it.
+//! Implicit steps of particles: the matrix s − J of their rates, made sparse by auxiliary unknowns.
 //!
-//! J is full, but with yⱼ = wⱼ δxⱼ it acts through the same recursive sums as the rates do. Taking their changes as further unknowns makes
-//! it a matrix of five rows a particle with a few entries each, so that an implicit step costs O(N). The change of ξ² in partial
-//! wetting is a matrix of rank one.
+//! J is dense, but with yⱼ = wⱼ δxⱼ it acts through the same recursive sums as the rates do. With the changes of these sums as additional unknowns the matrix
+//! has five rows per particle with a few entries each, so that an implicit step costs O(N). The change of ξ² in partial wetting is a matrix of rank one.
 
 use super::kernel::Order;
 use super::ode::Implicit;
@@ -12,7 +11,7 @@ use super::sums::OneSided;
 
 /// Unknowns of a particle: δx, and the changes of the two left and the two right sums.
 const BLOCK: usize = 5;
-/// The first of the left and of the right sums in a block.
+/// Offsets of the left and of the right sums in a block.
 const LEFT: usize = 1;
 const RIGHT: usize = 3;
 
@@ -24,7 +23,7 @@ pub struct ParticleSystem {
 }
 
 impl ParticleMethod {
-    /// The entries of the extended matrix by row and column, always at the same places in the same order; for the last sums, those at `x`.
+    /// The entries of the extended matrix by row and column, always with the same pattern in the same order; for the last sums, those at `x`.
     fn entries(&self, x: &[f64], shift: f64, mut entry: impl FnMut(usize, usize, f64)) {
         let alpha = self.kernel().alpha();
         let pull = self.xi_squared() - self.pull().bond;
@@ -37,7 +36,7 @@ impl ParticleMethod {
             let (height, slope, weight) = (s.height[i], s.slope[i], self.weight()[i]);
             let square = height * height;
             let drive = self.drive(i, pull);
-            // A particle's own term moves with it: the diagonal leaves it out.
+            // A particle's own term moves with it: the diagonal omits it.
             let curvature_of_others = s.curvature[i] - weight * own_second;
             let fourth_of_others = fourths[i] - weight * own_fourth;
             let own = 2.0 * height * slope * drive + square * (fourth_of_others + pull * curvature_of_others);
@@ -76,12 +75,12 @@ impl ParticleMethod {
     fn form(&self, order: Order) -> (f64, f64) {
         let alpha = self.kernel().alpha();
         let at = |d: f64| self.kernel().at(order, d) * (d / alpha).exp();
-        // Two places give the two numbers; 0 itself is special for the odd ones.
+        // Two values determine the two coefficients; 0 itself is special for the odd derivatives.
         let (near, far) = (at(alpha), at(2.0 * alpha));
         (2.0 * near - far, (far - near) / alpha)
     }
 
-    /// Σⱼ wⱼ Φ''''(xᵢ − xⱼ), each particle's own term included.
+    /// Σⱼ wⱼ Φ''''(xᵢ − xⱼ), including each particle's own term.
     fn fourths(&self, x: &[f64]) -> Vec<f64> {
         let alpha = self.kernel().alpha();
         let decay = |gap: f64| (-gap / alpha).exp();
@@ -114,9 +113,9 @@ impl Implicit for ParticleMethod {
         let rows = BLOCK * x.len();
         self.smooth(x);
         if self.pattern.is_none() {
-            let mut places = Vec::new();
-            self.entries(x, shift, |row, column, _| places.push((row, column)));
-            self.pattern = Pattern::new(rows, places).ok();
+            let mut indices = Vec::new();
+            self.entries(x, shift, |row, column, _| indices.push((row, column)));
+            self.pattern = Pattern::new(rows, indices).ok();
         }
         let mut values = Vec::new();
         self.entries(x, shift, |_, _, value| values.push(value));
@@ -136,9 +135,9 @@ impl Implicit for ParticleMethod {
 
     fn solve(system: &mut ParticleSystem, rhs: &mut [f64]) {
         system.extended.fill(0.0);
-        system.extended.iter_mut().step_by(BLOCK).zip(rhs.iter()).for_each(|(place, value)| *place = *value);
+        system.extended.iter_mut().step_by(BLOCK).zip(rhs.iter()).for_each(|(slot, value)| *slot = *value);
         system.factors.solve(&mut system.extended);
-        rhs.iter_mut().zip(system.extended.iter().step_by(BLOCK)).for_each(|(value, place)| *value = *place);
+        rhs.iter_mut().zip(system.extended.iter().step_by(BLOCK)).for_each(|(value, slot)| *value = *slot);
     }
 }
 
@@ -166,7 +165,7 @@ mod tests {
             let mut system = method.factor(&x, shift).unwrap();
             ParticleMethod::solve(&mut system, &mut found);
             let error = found.iter().zip(&change).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            // The central difference is good to step² and to rounding over step.
+            // The central difference is accurate to step² and to rounding over step.
             assert!(error < 1.0e-6, "{error}");
         }
     }

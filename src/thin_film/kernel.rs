@@ -1,10 +1,10 @@
 //! The smoothing kernel of the Geometric Thin-Film Equation and its derivatives, on the line and on a periodic interval.
 //!
-//! Source: Pang and Ó Náraigh 2022 [Pang2022, Eq. 41]. The Helmholtz kernel K(x) = e^(−|x|/α)/(2α) solves (1 − α²∂ₓₓ) K = δ;
-//! Φ = K∗K = (α + |x|) e^(−|x|/α)/(4α²) smooths the film, h̄ = Φ∗h. Every derivative up to the fourth has the form
-//! (c₀ + c₁|x|) e^(−|x|/α), even or odd, which is what makes the sums over particles recursive.
+//! Source: Pang and Ó Náraigh 2022 [Pang2022, Eq. 41]. The Helmholtz kernel K(x) = e^(−|x|/α)/(2α) solves (1 − α²∂ₓₓ) K = δ; Φ = K∗K = (α + |x|)
+//! e^(−|x|/α)/(4α²) smooths the film, h̄ = Φ∗h. Every derivative up to the fourth has the form (c₀ + c₁|x|) e^(−|x|/α), even or odd, which permits recursive
+//! sums over particles.
 
-/// Derivatives of Φ by order; the fourth is that of x ≠ 0 and leaves out the delta at 0.
+/// Derivatives of Φ by order; the fourth is that for x ≠ 0, without the delta function at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Order {
     /// Φ.
@@ -13,13 +13,13 @@ pub(crate) enum Order {
     First,
     /// Φ''.
     Second,
-    /// Φ''', which jumps by 1/α⁴ at 0; its value there is 0, so that no particle moves itself.
+    /// Φ''', which jumps by 1/α⁴ at 0; its value there is 0, so that particles do not move themselves.
     Third,
     /// Φ'''' away from 0.
     Fourth,
 }
 
-/// (c₀ + c₁ d) e^(−d/α) at distance d, with the sign of x where it is odd.
+/// (c₀ + c₁ d) e^(−d/α) at distance d, with the sign of x if it is odd.
 #[derive(Debug, Clone, Copy)]
 struct Term {
     constant: f64,
@@ -72,7 +72,7 @@ fn sign(odd: bool, x: f64) -> f64 {
     }
 }
 
-/// What tests compare with.
+/// Reference quantities for tests.
 #[cfg(test)]
 impl Kernel {
     /// Helmholtz kernel K(x).
@@ -107,7 +107,7 @@ mod tests {
     fn phi_is_the_helmholtz_kernel_smoothed_by_itself() {
         let kernel = Kernel::new(ALPHA);
         for x in [0.0, 0.013, 0.05, 0.21] {
-            // Cut at the kinks; the tails beyond 20 alpha hold e^-40 of the integral.
+            // Split at the kinks; the tails beyond 20 alpha hold e^-40 of the integral.
             let product = |y: f64| kernel.helmholtz(y) * kernel.helmholtz(x - y);
             let reach = 20.0 * ALPHA;
             let folded = simpson(4000, -reach, 0.0, product)

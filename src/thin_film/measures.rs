@@ -1,13 +1,13 @@
-//! Final results of a thin film: where its contact line is, how it came there, how far it is from rest and from known laws.
+//! Final results of a thin film: contact line, spreading, deviation from equilibrium and from known laws.
 
 use super::history::{COX_VOINOV, Record, WINDOW};
 use super::observed::ObservedFilm;
 use super::similarity::{COVERED, fit};
 use crate::solver::{Measure, measure};
 
-/// Share of the run that the exponents leave out at its beginning, where the droplet still forgets its shape.
+/// Initial fraction of the run excluded from exponents, where the droplet still depends on its initial shape.
 const FORGETTING: f64 = 1.0 / 50.0;
-/// Above this share of the film's slope, the lattice of particles holds the contact line back visibly.
+/// Above this fraction of the film's slope, the particle lattice visibly retards the contact line.
 const VISIBLE: f64 = 0.1;
 
 /// All measures of a film.
@@ -29,10 +29,10 @@ fn contact_line(observed: &ObservedFilm) -> Vec<Measure> {
             "contact-line-position",
             position,
             "m",
-            "where the tangent at the steepest place on the right meets the wall",
+            "where the tangent at the steepest point on the right meets the wall",
         ),
         measure("center-height", film.center_height() * scales.height, "m", "height at x = 0"),
-        measure("contact-angle-deg", angle, "deg", "angle of the tangent at the steepest place on the right"),
+        measure("contact-angle-deg", angle, "deg", "angle of the tangent at the steepest point on the right"),
     ];
     let droplets = observed.profile().peaks();
     found.push(measure("droplet-count", droplets as f64, "", "maxima of the film above a twentieth of the highest"));
@@ -46,13 +46,13 @@ fn contact_line(observed: &ObservedFilm) -> Vec<Measure> {
     found
 }
 
-/// How far a partially wetting film is from rest.
+/// Deviation of a partially wetting film from equilibrium.
 fn rest(observed: &ObservedFilm) -> Vec<Measure> {
     let surroundings = &observed.surroundings;
     let mut found = Vec::new();
     if let Some(rest) = surroundings.rest {
         let slope = observed.foot().map_or(f64::NAN, |foot| foot.slope / rest);
-        found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest place over the slope at rest"));
+        found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest point over the slope at rest"));
     }
     if let Some(sides) = surroundings.cap_sides {
         let profile = observed.profile();
@@ -73,7 +73,7 @@ fn rest(observed: &ObservedFilm) -> Vec<Measure> {
     found
 }
 
-/// Fits of known laws, where they can hold.
+/// Fits of known laws, where applicable.
 fn laws(observed: &ObservedFilm) -> Vec<Measure> {
     let surroundings = &observed.surroundings;
     let scales = surroundings.scales;
@@ -120,7 +120,7 @@ fn lattice(observed: &ObservedFilm) -> Option<Measure> {
     Some(measure("lattice-slope-ratio", share, "", method))
 }
 
-/// The exponent of a length in time, and how it was found.
+/// The exponent of the growth of a length in time, and the method.
 fn spreading(observed: &ObservedFilm, length: impl Fn(&Record) -> Option<f64>) -> (f64, String) {
     let start = FORGETTING * observed.film.time();
     let exponent = observed.history.exponent(start, length).unwrap_or(f64::NAN);

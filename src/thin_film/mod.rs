@@ -1,8 +1,8 @@
-//! The Geometric Thin-Film Equation of Pang and Ó Náraigh 2022: droplets that spread on a flat wall.
+//! The Geometric Thin-Film Equation of Pang and Ó Náraigh 2022: droplets spreading on a flat wall.
 //!
-//! h_t = −∂ₓ( h h̄² ∂ₓ( h̄ₓₓ + (ξ² − Bo) h̄ ) ), h̄ = Φ∗h, by particles and by implicit finite differences; beside it the
-//! equations with a slip length and with a precursor film, which regularize the contact line in other ways. All but the case
-//! and the output of the solver is dimensionless; [`scales`] stands between.
+//! h_t = −∂ₓ( h h̄² ∂ₓ( h̄ₓₓ + (ξ² − Bo) h̄ ) ), h̄ = Φ∗h, by particles and by implicit finite differences; also the equations with a slip length and with a
+//! precursor film, which regularize the contact line in other ways. Everything except the case and the output of the solver is dimensionless; [`scales`]
+//! converts.
 
 pub mod backward_euler;
 pub mod cells;

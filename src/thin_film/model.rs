@@ -1,10 +1,9 @@
-//! The thin-film equations that cells can hold: mobility, disjoining pressure and its energy. Scaled.
+//! The thin-film equations available in cells: mobility, disjoining pressure and its energy. Scaled.
 //!
 //! - geometric: M = h h̄² [Pang2022, Eq. 40];
 //! - slip: M = h³ + 3λh², λ the slip length over the scale of heights [Pang2022, Eq. 16];
-//! - precursor film: M = h³ + 3λh²; Π is 0 in complete wetting, else (1/h*) ((h*/h)³ − (h*/h)²) with the film's height h*: it
-//!   makes a droplet of slope 1 rest beside the film (Schwartz and Eley 1998). With slip the film only holds the angle, and the slip
-//!   length rules how fast the contact line moves.
+//! - precursor film: M = h³ + 3λh²; Π is 0 in complete wetting, else (1/h*) ((h*/h)³ − (h*/h)²) with the film thickness h*: a droplet of slope 1 is in
+//!   equilibrium with the film (Schwartz and Eley 1998). With slip the film determines only the angle, and the slip length the speed of the contact line.
 
 /// Equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,16 +17,16 @@ pub enum Model {
     Slip {
         /// Slip length λ.
         length: f64,
-        /// Height of the film on the wall that counts as dry.
+        /// Thickness of the film on the wall that counts as dry.
         film: f64,
     },
     /// Precursor film.
     Precursor {
-        /// Height h* of the film.
+        /// Thickness h* of the film.
         film: f64,
-        /// Slope at which droplets rest; 0 in complete wetting.
+        /// Equilibrium slope of droplets; 0 in complete wetting.
         slope: f64,
-        /// Slip length λ; 0 for a wall that sticks.
+        /// Slip length λ; 0 for a no-slip wall.
         slip: f64,
     },
 }
@@ -44,7 +43,7 @@ impl Model {
         }
     }
 
-    /// The sum of the sizes of the two terms of the disjoining pressure.
+    /// The sum of the magnitudes of the two terms of the disjoining pressure.
     pub(super) fn disjoining_terms(self, h: f64) -> f64 {
         match self {
             Self::Precursor { film, slope, .. } if slope > 0.0 => {
@@ -55,7 +54,7 @@ impl Model {
         }
     }
 
-    /// Energy per size W of the disjoining pressure, W' = −Π and W = 0 far above the film.
+    /// Energy per area W of the disjoining pressure, W' = −Π and W = 0 far above the film.
     pub(super) fn attraction(self, h: f64) -> f64 {
         match self {
             Self::Precursor { film, slope, .. } if slope > 0.0 => {

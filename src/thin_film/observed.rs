@@ -1,4 +1,4 @@
-//! A film with all that is needed to observe it: what tables, pictures, measures and warnings are read off.
+//! A film with everything needed to observe it, as input to tables, pictures, measures and warnings.
 
 use super::equilibrium::Equilibrium;
 use super::film::Film;
@@ -6,52 +6,51 @@ use super::history::{Frame, History};
 use super::profile::{Foot, Profile};
 use super::scales::Scales;
 
-/// Points of the output's profile of particles per filter length; the foot is then good to 1e-7 of it.
+/// Points per filter length in the output profile of particles; the foot is then accurate to 1e-7 of it.
 const POINTS_PER_FILTER: f64 = 20.0;
-/// Most points of that profile.
+/// Maximum number of points of that profile.
 const MOST_POINTS: f64 = 2.0e4;
 
-/// Steps between the places of a frame.
+/// Intervals between the positions of a frame.
 const FRAME_PLACES: u32 = 240;
-/// Particles whose ways are kept.
+/// Number of particles whose trajectories are kept.
 const WAYS: usize = 12;
 
-/// What stands still around the film.
+/// Constant properties of the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Surroundings {
     /// Scales.
     pub(crate) scales: Scales,
     /// Left and right end of the wall in m.
     pub(crate) wall: [f64; 2],
-    /// Scaled length that the film varies over at its contact line: the filter length, or the grid's spacing.
+    /// Scaled length over which the film varies at its contact line: the filter length, or the grid spacing.
     pub(crate) resolution: f64,
-    /// Scaled middle of the droplet on the right.
+    /// Scaled center of the droplet on the right.
     pub(crate) right: f64,
-    /// Whether the film is the same all around the axis x = 0.
+    /// Whether the film is axisymmetric about x = 0.
     pub(crate) about_axis: bool,
-    /// Scaled slope at rest, in partial wetting.
+    /// Scaled equilibrium slope, in partial wetting.
     pub(crate) rest: Option<f64>,
-    /// For a partially wetting droplet that rests as a parabola: directions that its curvature is the sum of, 1 in the plane
-    /// and 2 about an axis.
+    /// For a partially wetting droplet with a parabolic equilibrium: number of principal curvatures, 1 in the plane and 2 about an axis.
     pub(crate) cap_sides: Option<f64>,
-    /// Whether the case takes the energy of the particle lattice off.
+    /// Whether the case corrects for the energy of the particle lattice.
     pub(crate) takes_lattice_off: bool,
-    /// Droplets at the start of a film that can only join them: a geometric one that does not hang.
+    /// Initial number of droplets of a film in which they can only coalesce: a geometric one that is not pendent.
     pub(crate) most_droplets: Option<usize>,
-    /// Whether the droplet comes to a self-similar shape by surface tension.
+    /// Whether the droplet becomes self-similar by surface tension.
     pub(crate) is_self_similar: bool,
-    /// The droplet at rest, where its form is known.
+    /// The equilibrium droplet, if its form is known.
     pub(crate) equilibrium: Option<Equilibrium>,
 }
 
-/// A film, scaled, and how it came there.
+/// A film, scaled, and its history.
 #[derive(Debug, Clone)]
 pub(crate) struct ObservedFilm {
     /// The film.
     pub(crate) film: Film,
-    /// What stands around it.
+    /// Its constant properties.
     pub(crate) surroundings: Surroundings,
-    /// The way of the contact line.
+    /// The path of the contact line.
     pub(crate) history: History,
     /// Time in s.
     pub(crate) time: f64,
@@ -63,18 +62,17 @@ impl ObservedFilm {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
         let wanted = POINTS_PER_FILTER * (right - left) / self.surroundings.resolution;
         let count = wanted.ceil().clamp(2.0, MOST_POINTS);
-        let places: Vec<f64> = (0..=count as usize).map(|i| left + (right - left) * i as f64 / count).collect();
-        self.film.profile(&places)
+        let positions: Vec<f64> = (0..=count as usize).map(|i| left + (right - left) * i as f64 / count).collect();
+        self.film.profile(&positions)
     }
 
-    /// The scaled contact line on the right; none where its tangent meets the wall outside of the domain, as that of a film that
-    /// covers the whole of it does.
+    /// The scaled contact line on the right; `None` if its tangent meets the wall outside the domain, as for a film that covers all of it.
     pub(crate) fn foot(&self) -> Option<Foot> {
         let end = self.surroundings.wall[1] / self.surroundings.scales.length;
         self.profile().foot(self.surroundings.right).filter(|foot| foot.position <= end)
     }
 
-    /// The scaled places of the heights in frames: equal steps along the wall.
+    /// The scaled positions of the heights in frames, equidistant along the wall.
     pub(crate) fn frame_places(&self) -> Vec<f64> {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
         (0..=FRAME_PLACES).map(|i| left + (right - left) * f64::from(i) / f64::from(FRAME_PLACES)).collect()
@@ -86,7 +84,7 @@ impl ObservedFilm {
         Frame { time, heights, ways: self.film.ways(WAYS) }
     }
 
-    /// Column of the film's size, and its unit of scaled mass: an area in the plane, a volume about an axis.
+    /// Column of the film's size, and its unit of scaled mass: an area in the plane, a volume if axisymmetric.
     pub(crate) fn mass_unit(&self) -> (&'static str, f64) {
         let s = &self.surroundings.scales;
         if self.surroundings.about_axis { ("volume_m3", s.area() * s.length) } else { ("area_m2", s.area()) }

@@ -1,9 +1,8 @@
 //! Time integration of particles: an explicit and a stiff one-step method with error control.
 //!
-//! Both methods depend on the present state and the proposed step only, so that a run resumed from a saved state gives the
-//! same bits as an unbroken one; multistep methods would have to save their history. Explicit: Dormand and Prince 1980,
-//! order 5(4). Stiff: RODAS, order 4(3), L-stable, 6 stages (Hairer and Wanner, Solving Ordinary Differential Equations II,
-//! 1996, Sect. VI.4). Both are for autonomous systems.
+//! Both methods depend on the present state and the proposed step only, so that a run resumed from a saved state is bitwise identical to an uninterrupted
+//! one; multistep methods would have to save their history. Explicit: Dormand and Prince 1980, order 5(4). Stiff: RODAS, order 4(3), L-stable, 6 stages
+//! (Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, Sect. VI.4). Both are for autonomous systems.
 
 use crate::case::film::FilmIntegrator;
 
@@ -12,43 +11,43 @@ pub trait Rates {
     /// Writes f(x).
     fn rates(&mut self, x: &[f64], out: &mut [f64]);
 
-    /// Whether a state can be accepted at all.
+    /// Whether a state is admissible.
     fn admissible(&self, x: &[f64]) -> bool;
 }
 
-/// Rates whose Jacobian J can be used in implicit steps.
+/// Rates whose Jacobian J is available for implicit steps.
 pub trait Implicit: Rates {
     /// The factored matrix.
     type System;
 
-    /// Factors `shift` − J(x); none where that is singular.
+    /// Factors `shift` − J(x); `None` if that is singular.
     fn factor(&mut self, x: &[f64], shift: f64) -> Option<Self::System>;
 
     /// Replaces `rhs` by the solution.
     fn solve(system: &mut Self::System, rhs: &mut [f64]);
 }
 
-/// Accepted error per step: absolute + relative |x|.
+/// Tolerance of the error per step: absolute + relative |x|.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// In the unit of x.
     pub absolute: f64,
-    /// Share of |x|.
+    /// Relative to |x|.
     pub relative: f64,
 }
 
-/// Counts of work.
+/// Work counters.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Work {
     /// Evaluations of the rates.
     pub rates: u64,
     /// Factorizations.
     pub factors: u64,
-    /// Steps that were tried again with less.
+    /// Number of rejected steps.
     pub rejected: u64,
 }
 
-/// A state on its way.
+/// State of a time integration.
 #[derive(Debug, Clone)]
 pub struct Integrator {
     /// Method.
@@ -61,20 +60,20 @@ pub struct Integrator {
     pub x: Vec<f64>,
     /// The step to try next.
     pub next: f64,
-    /// Counts.
+    /// Work counters.
     pub work: Work,
     stages: Vec<Vec<f64>>,
 }
 
-/// No accepted step down to this one.
+/// No accepted step down to this size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepTooSmall(pub f64);
 
-/// Steps change by these factors at most, and aim at this share of the tolerance.
+/// Bounds of the ratio of successive steps, and the fraction of the tolerance aimed at.
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
 const SAFETY: f64 = 0.9;
-/// A step of the stiff method over the time, in a droplet that spreads, at this tolerance; it goes as its fourth root.
+/// Step of the stiff method over the time, in a spreading droplet, at this tolerance; it scales as the fourth root of the tolerance.
 const SHARE: f64 = 0.2;
 const SHARE_AT: f64 = 1.0e-7;
 /// Smallest step over the present time (or over 1 at time zero).
@@ -86,15 +85,15 @@ impl Integrator {
         Self { method, tolerance, time: 0.0, x, next: first, work: Work::default(), stages: Vec::new() }
     }
 
-    /// Does one step that ends at `until` or before; landing there is exact. Gives back its length.
+    /// Does one step that ends at `until` or before; `until` is reached exactly. Returns its length.
     ///
     /// # Errors
-    /// [`StepTooSmall`] where no step is accepted; the state is kept.
+    /// [`StepTooSmall`] if no step is accepted; the state is kept.
     pub fn step(&mut self, system: &mut impl Implicit, until: f64) -> Result<f64, StepTooSmall> {
         loop {
             let left = until - self.time;
             let cut = self.next >= left;
-            // Two halves rather than a step and a sliver.
+            // Two halves rather than a full step and a tiny remainder.
             let dt = if cut { left } else { self.next.min(0.5 * left).max(self.next.min(left) * 0.5) };
             let (order, trial) = match self.method {
                 FilmIntegrator::Explicit => (5.0, self.explicit(system, dt)),
@@ -110,7 +109,7 @@ impl Integrator {
             {
                 self.x = x;
                 self.time = if cut { until } else { self.time + dt };
-                // A step that was cut to land tells little of the step that could have been.
+                // A step truncated at `until` is no measure of the possible step.
                 self.next = if dt < self.next { self.next.max(dt * factor) } else { dt * factor };
                 return Ok(dt);
             }
@@ -122,8 +121,8 @@ impl Integrator {
         }
     }
 
-    /// About how many steps of the stiff method lead to `end`: they grow as the time does. Those of the explicit method are bound
-    /// by stability, so that the length of the last one tells more.
+    /// Approximate number of steps of the stiff method to `end`: they grow in proportion to the time. Those of the explicit method are limited by stability,
+    /// for which the length of the last step is the better estimate.
     pub(crate) fn steps_to(&self, end: f64) -> Option<f64> {
         if self.method == FilmIntegrator::Explicit {
             return None;
@@ -188,7 +187,7 @@ impl Integrator {
             if stage > 0 {
                 x = combined(&self.x, 1.0, RODAS_A[stage - 1], &k);
             }
-            // The recursive sums need particles in their order.
+            // The recursive sums need ordered particles.
             if !system.admissible(&x) {
                 self.stages = k;
                 return None;
@@ -229,7 +228,7 @@ const DORMAND_PRINCE: [[f64; 6]; 6] = [
     [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
 
-/// Solution less the embedded one of order 4.
+/// The solution minus the embedded one of order 4.
 const DORMAND_PRINCE_ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 
@@ -261,7 +260,7 @@ const RODAS_C: [&[f64]; 5] = [
 mod tests {
     use super::*;
 
-    /// ẋ = −y + x (1 − x² − y²), ẏ = x + y (1 − x² − y²): any start on the unit circle stays on it and turns by 1 rad/s.
+    /// ẋ = −y + x (1 − x² − y²), ẏ = x + y (1 − x² − y²): trajectories on the unit circle stay on it and rotate at 1 rad/s.
     struct Circle;
 
     impl Rates for Circle {
@@ -308,7 +307,7 @@ mod tests {
     fn the_methods_have_the_orders_of_their_names() {
         for (method, order) in [(FilmIntegrator::Explicit, 5.0), (FilmIntegrator::Stiff, 4.0)] {
             let found = (error(method, 20) / error(method, 40)).log2();
-            // Higher terms bend the line a little; on a circle some of the leading ones cancel.
+            // Higher-order terms bend the line a little; on a circle some of the leading ones cancel.
             assert!(found > order - 0.3 && found < order + 1.2, "{method:?}: {found}");
         }
     }

@@ -1,9 +1,9 @@
 //! The particle method: ẋᵢ = h̄ᵢ² ( h̄ₓₓₓ,ᵢ + (ξ² − Bo) h̄ₓ,ᵢ ), h̄ = Σ wⱼ Φ(x − xⱼ), ξ² = 2χA²/⟨h,h̄⟩² [Pang2022, Sects. 3, 5].
 //!
-//! χ = 0 is complete wetting; the Bond number Bo is no part of the paper. The line is infinite. A lattice of particles has an energy w²/(24 α⁴) per length more than the
-//! film that it stands for; its gradient opposes spreading like a contact angle of slope w/(√12 α²), and falls only as the
-//! square of the spacing. [`LatticeEnergy::TakenOff`] adds its opposite, cₖ = (wₖ₋₁² − wₖ₊₁²)/(48 α⁴ wₖ), to the bracket. That
-//! is no part of the paper, and holds only while gaps are below α/2: beyond, the term throws the last particles away.
+//! χ = 0 is complete wetting; the Bond number Bo is not part of the paper. The line is infinite. The energy of a lattice of particles exceeds that of the
+//! film it represents by w²/(24 α⁴) per length; its gradient opposes spreading like a contact angle of slope w/(√12 α²), and decreases only as the square of
+//! the spacing. [`LatticeEnergy::TakenOff`] adds its opposite, cₖ = (wₖ₋₁² − wₖ₊₁²)/(48 α⁴ wₖ), to the bracket. That is not part of the paper, and valid only
+//! for gaps below α/2: beyond, the term expels the last particles.
 
 use super::droplet::PointMasses;
 use super::kernel::Kernel;
@@ -12,19 +12,19 @@ use super::sparse::Pattern;
 use super::sums::{FastSums, Smoothed, direct_sums};
 use crate::case::film::LatticeEnergy;
 
-/// Widest gap over α at which the lattice energy may be taken off.
+/// Largest gap over α at which the lattice energy may be corrected.
 pub(crate) const WIDEST_GAP: f64 = 0.5;
 
-/// What moves a film besides its tension.
+/// Driving forces of a film besides surface tension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pull {
     /// χ of partial wetting, 0 for complete wetting.
     pub wetting: f64,
-    /// Bond number ρgL²/γ, below 0 for a film that hangs.
+    /// Bond number ρgL²/γ, below 0 for a pendent film.
     pub bond: f64,
 }
 
-/// Particles with all that their motion depends on but their positions.
+/// The particles except for their positions, with all parameters of their motion.
 #[derive(Debug, Clone)]
 pub struct ParticleMethod {
     kernel: Kernel,
@@ -35,7 +35,7 @@ pub struct ParticleMethod {
     sums: FastSums,
     sums_directly: bool,
     pub(super) smoothed: Smoothed,
-    /// The places of the entries of the matrix of implicit steps, once there was one.
+    /// The sparsity pattern of the matrix of implicit steps, once computed.
     pub(super) pattern: Option<Pattern>,
 }
 
@@ -60,22 +60,22 @@ impl ParticleMethod {
         }
     }
 
-    /// Takes the sums of rates over all pairs from now on, to compare with the recursion.
+    /// From now on computes the sums of the rates over all pairs, for comparison with the recursion.
     pub(crate) fn sum_directly(&mut self) {
         self.sums_directly = true;
     }
 
-    /// Leaves the lattice energy alone from now on.
+    /// From now on omits the correction of the lattice energy.
     pub(crate) fn keep_lattice_energy(&mut self) {
         self.correction.fill(0.0);
     }
 
-    /// Whether a lattice energy is taken off.
+    /// Whether the lattice energy is corrected.
     pub fn corrects(&self) -> bool {
         self.correction.iter().any(|&c| c != 0.0)
     }
 
-    /// The slope of the contact angle that the lattice energy imitates, w/(√12 α²) with the largest weight.
+    /// The slope of the spurious contact angle due to the lattice energy, w/(√12 α²) with the largest weight.
     pub(crate) fn lattice_slope(&self) -> f64 {
         let largest = self.weight.iter().copied().fold(0.0, f64::max);
         largest / (12.0_f64.sqrt() * self.kernel.alpha().powi(2))
@@ -91,7 +91,7 @@ impl ParticleMethod {
         self.area
     }
 
-    /// What moves the film besides its tension.
+    /// Driving forces besides surface tension.
     pub fn pull(&self) -> Pull {
         self.pull
     }
@@ -111,22 +111,22 @@ impl ParticleMethod {
         &self.smoothed
     }
 
-    /// h̄, h̄ₓ, h̄ₓₓ at ascending places.
-    pub fn profile(&self, x: &[f64], places: &[f64]) -> Smoothed {
-        self.sums.at_places(x, &self.weight, places)
+    /// h̄, h̄ₓ, h̄ₓₓ at ascending positions.
+    pub fn profile(&self, x: &[f64], positions: &[f64]) -> Smoothed {
+        self.sums.at_places(x, &self.weight, positions)
     }
 
-    /// ⟨h, h̄⟩ = Σ wᵢ h̄ᵢ of the last sums.
+    /// ⟨h, h̄⟩ = Σ wᵢ h̄ᵢ from the last sums.
     pub(super) fn overlap(&self) -> f64 {
         self.weight.iter().zip(&self.smoothed.height).map(|(w, h)| w * h).sum()
     }
 
-    /// ξ² of the last sums.
+    /// ξ² from the last sums.
     pub(super) fn xi_squared(&self) -> f64 {
         if self.pull.wetting == 0.0 { 0.0 } else { 2.0 * self.pull.wetting * (self.area / self.overlap()).powi(2) }
     }
 
-    /// Energy E = ½ Σ wᵢ (Bo h̄ᵢ − h̄ₓₓ,ᵢ) + χA²/⟨h,h̄⟩, that of the lattice included.
+    /// Energy E = ½ Σ wᵢ (Bo h̄ᵢ − h̄ₓₓ,ᵢ) + χA²/⟨h,h̄⟩, including that of the lattice.
     pub(crate) fn energy(&mut self, x: &[f64]) -> f64 {
         self.smooth(x);
         let surface: f64 = self.weight.iter().zip(&self.smoothed.curvature).map(|(w, c)| w * c).sum();
@@ -140,7 +140,7 @@ impl ParticleMethod {
     }
 }
 
-/// cₖ of each particle; beyond the ends there is no weight.
+/// cₖ of each particle; the weight beyond the ends is zero.
 fn lattice_correction(kernel: &Kernel, weight: &[f64]) -> Vec<f64> {
     let at = |i: Option<usize>| i.and_then(|i| weight.get(i)).copied().unwrap_or(0.0);
     let scale = 48.0 * kernel.alpha().powi(4);
@@ -148,7 +148,7 @@ fn lattice_correction(kernel: &Kernel, weight: &[f64]) -> Vec<f64> {
     (0..weight.len()).map(term).collect()
 }
 
-/// The widest distance of neighbors.
+/// The largest distance between neighbors.
 pub(crate) fn widest_gap(x: &[f64]) -> f64 {
     x.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
@@ -162,13 +162,13 @@ impl Rates for ParticleMethod {
         }
     }
 
-    /// Particles keep their order.
+    /// Particles must keep their order.
     fn admissible(&self, x: &[f64]) -> bool {
         x.iter().all(|x| x.is_finite()) && x.windows(2).all(|pair| pair[0] < pair[1])
     }
 }
 
-/// A droplet whose particles were moved about a little, for tests.
+/// A droplet whose particles are slightly displaced, for tests.
 #[cfg(test)]
 pub(super) fn disturbed(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
     let droplet = super::droplet::Droplet { area: 1.0, half_width: 0.5, center: 0.0 };

@@ -1,12 +1,12 @@
-//! What is read off a profile h̄(x): the contact line by the tangent construction, heights, distances between profiles.
+//! Quantities derived from a profile h̄(x): the contact line by the tangent construction, heights, distances between profiles.
 
-/// A maximum below this share of the highest is no droplet.
+/// A maximum below this fraction of the highest does not count as a droplet.
 const PEAK: f64 = 0.05;
 
-/// h̄ and two derivatives at equally spaced places, ascending.
+/// h̄ and two derivatives at equidistant, ascending positions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Profile {
-    /// Places.
+    /// Positions.
     pub x: Vec<f64>,
     /// h̄.
     pub height: Vec<f64>,
@@ -19,9 +19,9 @@ pub struct Profile {
 /// The advancing edge of a droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
-    /// Where the tangent at the steepest place meets the wall: the contact line.
+    /// Intersection of the tangent at the steepest point with the wall: the contact line.
     pub position: f64,
-    /// The steepest place y*.
+    /// The steepest point y*.
     pub steepest: f64,
     /// |h̄ₓ| there: the slope of the apparent contact angle.
     pub slope: f64,
@@ -30,8 +30,8 @@ pub struct Foot {
 impl Profile {
     /// The foot on the right: y* = argmax(−h̄ₓ) over x > `from`, contact line y* + h̄/|h̄ₓ| [Pang2022, Sect. 4].
     ///
-    /// The paper's text names the maximum of h̄, where the tangent is flat; the steepest place is meant. The position is
-    /// stationary in y*, so that a parabola through three slopes finds it to the fourth power of their distance.
+    /// The paper's text names the maximum of h̄, where the tangent is horizontal; the steepest point is meant. The position is stationary in y*, so that a
+    /// parabola through three slopes gives it with an error of fourth order in their spacing.
     pub fn foot(&self, from: f64) -> Option<Foot> {
         let right = (1..self.x.len().saturating_sub(1)).filter(|&i| self.x[i] > from);
         let i = right.min_by(|&i, &j| self.slope[i].total_cmp(&self.slope[j]))?;
@@ -50,7 +50,7 @@ impl Profile {
     pub(crate) fn peaks(&self) -> usize {
         let least = PEAK * self.height.iter().copied().fold(0.0, f64::max);
         let h = &self.height;
-        // A film about an axis has its maximum at its first place.
+        // An axisymmetric film has its maximum at the first point.
         let rises = |i: usize| i == 0 || h[i] > h[i - 1];
         let falls = |i: usize| i + 1 == h.len() || h[i] >= h[i + 1];
         (0..h.len()).filter(|&i| h[i] > least && rises(i) && falls(i)).count()
@@ -63,7 +63,7 @@ impl Profile {
     }
 }
 
-/// The exponent of a power law y ~ t^n by least squares in log t and log y; none with fewer than two points.
+/// The exponent of a power law y ~ t^n by least squares in log t and log y; `None` with fewer than two points.
 pub fn exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
     let logs: Vec<(f64, f64)> =
         points.into_iter().filter(|(t, y)| *t > 0.0 && *y > 0.0).map(|(t, y)| (t.ln(), y.ln())).collect();

@@ -10,14 +10,14 @@ use super::grid::Grid;
 use super::sparse::{Factors, Pattern, TooLarge};
 use crate::case::film::FilmWeights;
 
-/// A height below this share of the largest is a spurious root, not rounding.
+/// A negative height beyond this fraction of the largest is a spurious root, not rounding.
 const NEGATIVE: f64 = -1.0e-6;
-/// How many nodes away the heights of other nodes enter a balance.
+/// Half-width of the stencil of a balance in nodes.
 const REACH: usize = 3;
-/// Below this share of the largest h there is no film to speak of.
+/// Below this fraction of the largest h the velocity is set to zero.
 const BARE: f64 = 1.0e-3;
 
-/// A droplet on a ring of nodes, its equation, and how it is smoothed.
+/// Periodic grid and parameters of the equation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
     /// First node; x = 0 should be a node.
@@ -42,13 +42,12 @@ pub struct Ring {
     area: f64,
     /// The factors of H.
     smoothing: Factors,
-    /// The places of the entries of Jacobians.
+    /// The sparsity pattern of the Jacobians.
     pattern: Pattern,
 }
 
 impl Ring {
-    /// Droplets on a ring with their smoothed heights; `weights` says whether nodes hold the mean of their cell or the value
-    /// at the node.
+    /// Droplets on a periodic grid with their smoothed heights; `weights` selects cell averages or the values at the nodes.
     pub fn new(line: Line, droplets: &[Droplet], weights: FilmWeights) -> Result<(Self, Vec<f64>), TooLarge> {
         let Line { from, count, spacing, alpha, .. } = line;
         let mut sharp = vec![0.0; count];
@@ -89,7 +88,7 @@ impl Ring {
         [-s, 2.0 * s, 0.0, -2.0 * s, s]
     }
 
-    /// A stencil from node −2 to node 2, on the ring.
+    /// Applies a stencil from node −2 to node 2, periodically.
     fn apply(&self, v: &[f64], stencil: &[f64; 5]) -> Vec<f64> {
         let n = v.len();
         let at = |i: usize, offset: usize| v[(i + n + offset - 2) % n];
@@ -136,7 +135,7 @@ impl Balance for Ring {
         self.norm(&smoothed)
     }
 
-    /// Terms of the flux by their sizes: h, whose differences cancel, and the drive, whose derivatives cancel at rest.
+    /// Terms of the flux by magnitude: h, whose differences cancel, and the drive, whose derivatives cancel at rest.
     fn rounding(&self, v: &[f64], dt: f64) -> f64 {
         let sizes: Vec<f64> = v.iter().map(|v| v.abs()).collect();
         let sum = |stencil: [f64; 5]| self.apply(&sizes, &stencil.map(f64::abs));
@@ -159,7 +158,7 @@ impl Balance for Ring {
         let smoothing = self.smoothing();
         let pull = state.xi_squared - self.line.bond;
         let (first, third) = (self.first(), self.third());
-        // Derivatives of the flux of a node by the heights from two nodes before to two after.
+        // Derivatives of the flux at a node with respect to the heights from two nodes before to two after.
         let flux = |node: usize| -> [f64; 5] {
             let (h, k, height) = (state.sharp[node], state.drive[node], v[node]);
             let square = height * height;
@@ -229,7 +228,7 @@ impl Grid for Ring {
     }
 }
 
-/// h, h̄ₓ, k = ∂ₓ(h̄ₓₓ + (ξ² − Bo) h̄), ⟨h,h̄⟩ and ξ² of a trial.
+/// h, h̄ₓ, k = ∂ₓ(h̄ₓₓ + (ξ² − Bo) h̄), ⟨h,h̄⟩ and ξ² of an iterate.
 struct State {
     sharp: Vec<f64>,
     slope: Vec<f64>,
@@ -245,7 +244,7 @@ fn smoothing_stencil(alpha: f64, spacing: f64) -> [f64; 5] {
     [far, near, 1.0 + 4.0 * c + 6.0 * c * c, near, far]
 }
 
-/// Places of the entries of a row, from `reach` nodes before it to as many after.
+/// Row and column of the entries of a row, from `reach` nodes before it to `reach` after.
 fn around(row: usize, reach: usize, count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..=2 * reach).map(move |offset| (row, (row + count + offset - reach) % count))
 }
@@ -271,7 +270,7 @@ mod tests {
         let mut found = product;
         ring.jacobian(&v, dt).unwrap().solve(&mut found);
         let error = found.iter().zip(&change).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        // The central difference is good to rounding over its step.
+        // The central difference is accurate to rounding over its step.
         assert!(error < 1.0e-6, "{error}");
     }
 }

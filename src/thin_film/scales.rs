@@ -1,18 +1,18 @@
-//! From SI units to the scaled equation and back [Pang2022, Sects. 4 and 5].
+//! Conversion between SI units and the scaled equation [Pang2022, Sects. 4 and 5].
 //!
-//! Complete wetting: h₀ = (8/3) h_max, L = 2r₀, of the highest and the widest droplet. Partial wetting: h₀ = √(A tan θ),
-//! L = √(A/tan θ) with A the cross-section of all droplets, so that the scaled area and the scaled slope at rest are 1. Both:
-//! τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there where tan⁻³θ is consistent. Bo = ρgL²/γ.
+//! Complete wetting: h₀ = (8/3) h_max, L = 2r₀, of the highest and the widest droplet. Partial wetting: h₀ = √(A tan θ), L = √(A/tan θ) with A the
+//! cross-section of all droplets, so that the scaled area and the scaled equilibrium slope are 1. Both: τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there
+//! where tan⁻³θ is consistent. Bo = ρgL²/γ.
 
 use super::droplet::Droplet;
 use crate::case::film::{FilmDroplet, ThinFilm};
 
-/// One unit of each scaled quantity.
+/// The unit of each scaled quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scales {
     /// Along the wall, L in m.
     pub(crate) length: f64,
-    /// Across it, h₀ in m.
+    /// Normal to the wall, h₀ in m.
     pub(crate) height: f64,
     /// τ in s.
     pub(crate) time: f64,

@@ -1,4 +1,4 @@
-//! From a checked case to a film at time zero.
+//! Sets up a film at time zero from a checked case.
 
 use super::backward_euler::StepRule;
 use super::cells::{Cells, Layout, Model};
@@ -20,13 +20,13 @@ use crate::case::film::{
     Precursor, Slip, ThinFilm,
 };
 
-/// Scaled first step: a droplet that starts far from rest changes fast.
+/// Scaled first step: droplets far from equilibrium change fast.
 const FIRST_STEP: f64 = 1.0e-6;
-/// Longest first step on a grid over the time in which a droplet moves as it begins. Where a small contact angle makes the scale of time
-/// longer than that by far, the scaled first step alone leads to spurious roots.
+/// Longest first step on a grid over the initial time scale of a droplet. If a small contact angle makes the unit of time much longer than that, the scaled
+/// first step alone leads to spurious roots.
 const SHARE_OF_DROPLET: f64 = 1.0e-4;
 
-/// A film that cannot be set up.
+/// Why a film cannot be set up.
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
     /// The filter is too wide for the droplet.
@@ -37,7 +37,7 @@ pub enum SetupError {
     TooSmooth {
         /// Smoothing length in m.
         length: f64,
-        /// A usual one in m.
+        /// A typical one in m.
         usual: f64,
     },
     /// The film has too many nodes for the memory.
@@ -46,7 +46,7 @@ pub enum SetupError {
 }
 
 impl SetupError {
-    /// The key of the case that a user would change.
+    /// The key of the case that would have to change.
     pub(crate) fn key(&self) -> String {
         match self {
             Self::TooSmooth { .. } => "thin-film.equation.geometric.smoothing-length".to_owned(),
@@ -106,12 +106,12 @@ pub(crate) fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, Setu
     Ok(ThinFilmSolver::new(moving, surroundings))
 }
 
-/// Droplets of a film that cannot come apart; one that hangs or rests on a precursor film can.
+/// Initial number of droplets of a film that cannot break up; a pendent one or one on a precursor film can.
 fn most_droplets(film: &ThinFilm) -> Option<usize> {
     (smoothing_length(film).is_some() && film.gravity >= 0.0).then_some(film.droplets.len())
 }
 
-/// Scaled first step on a grid: droplets of half width r and height H first move in times of (3μr/γ)(r/H)³.
+/// Scaled first step on a grid: droplets of half width r and height H initially move on the time scale (3μr/γ)(r/H)³.
 fn first_step(film: &ThinFilm, scales: &Scales) -> f64 {
     let time = |droplet: &FilmDroplet| {
         let ratio = droplet.half_width / droplet.height;
@@ -121,7 +121,7 @@ fn first_step(film: &ThinFilm, scales: &Scales) -> f64 {
     FIRST_STEP.min(SHARE_OF_DROPLET * shortest / scales.time)
 }
 
-/// Sides of the parabola as which a droplet rests, where it does.
+/// Number of principal curvatures of the parabolic equilibrium, if the droplet has one.
 fn cap_sides(film: &ThinFilm) -> Option<f64> {
     film.rests_as_cap().then_some(match film.symmetry {
         FilmSymmetry::Plane => 1.0,
@@ -136,9 +136,9 @@ fn smoothing_length(film: &ThinFilm) -> Option<f64> {
     }
 }
 
-/// χ of the geometric equation, and the droplet at rest where its form is known.
+/// χ of the geometric equation, and the equilibrium droplet if its form is known.
 ///
-/// Droplets share one ξ, so χ is that of a droplet of their mean area: equal ones rest at the angle that is asked for.
+/// All droplets share one ξ, so χ is that of a droplet of their mean area: equal ones rest at the prescribed angle.
 fn rest(film: &ThinFilm, scales: &Scales, droplets: &[Droplet]) -> Result<(f64, Option<Equilibrium>), SetupError> {
     let (Some(_), Some(length)) = (film.contact_angle, smoothing_length(film)) else { return Ok((0.0, None)) };
     let mean = 1.0 / droplets.len() as f64;
@@ -162,7 +162,7 @@ fn grid(
     let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
     let model = match (film.equation, film.symmetry) {
         (FilmEquation::Geometric(Geometric { smoothing_length }), FilmSymmetry::Plane) => {
-            // A node stands at x = 0.
+            // One node is at x = 0.
             let before = (-wall[0] / film.spacing).round();
             let alpha = smoothing_length / scales.length;
             let Pull { wetting, bond } = pull;
@@ -177,7 +177,7 @@ fn grid(
             Model::Slip { length: slip_length / scales.height, film: film_height / scales.height }
         }
         (FilmEquation::Precursor(Precursor { film_height, slip_length }), _) => {
-            // The scaled slope at rest is 1.
+            // The scaled equilibrium slope is 1.
             let slope = if film.contact_angle.is_some() { 1.0 } else { 0.0 };
             Model::Precursor { film: film_height / scales.height, slope, slip: slip_length / scales.height }
         }

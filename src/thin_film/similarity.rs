@@ -9,13 +9,13 @@ use super::ode::{Implicit, Integrator, Rates, Tolerance};
 use super::profile::Profile;
 use crate::case::film::FilmIntegrator;
 
-/// Exponent of time in x, and its negative in h̄.
+/// Exponent of time in x; the negative of that in h̄.
 pub(crate) const EXPONENT: f64 = 1.0 / 7.0;
-/// The fit covers this share of the droplet: beyond, the regularized contact line has its own shape.
+/// Fraction of the droplet covered by the fit: beyond, the shape depends on the regularization of the contact line.
 pub(crate) const COVERED: f64 = 0.7;
 /// Largest error of f over f(0) in the integration.
 const TOLERANCE: f64 = 1.0e-10;
-/// The bracket of f''(0) about its first guess.
+/// The bracket of f''(0) around its initial guess.
 const BRACKET: (f64, f64) = (1.6, 0.6);
 /// Golden-section steps: each keeps 0.618 of the bracket.
 const SEARCH_STEPS: u32 = 50;
@@ -62,14 +62,14 @@ impl Implicit for Shooting {
     }
 }
 
-/// f at the ascending places `eta` for f(0) and f''(0); the list ends where the integration cannot go on near the wall.
+/// f at the ascending positions `eta` for f(0) and f''(0); the list ends where the integration fails near the wall.
 pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     let tolerance = Tolerance { absolute: TOLERANCE * height, relative: TOLERANCE };
     let start = vec![0.0, height, 0.0, curvature];
     let mut state = Integrator::new(FilmIntegrator::Explicit, tolerance, start, 1.0e-3);
     let mut f = Vec::with_capacity(eta.len());
-    for &place in eta {
-        if state.run(&mut Shooting, place).is_err() {
+    for &position in eta {
+        if state.run(&mut Shooting, position).is_err() {
             break;
         }
         f.push(state.x[1]);
@@ -77,7 +77,7 @@ pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     f
 }
 
-/// The shape nearest to a droplet at the time `t` with its contact line at `foot`, by least squares over its middle part.
+/// The least-squares fit of the shape to the middle part of a droplet at the time `t` with its contact line at `foot`.
 pub(crate) fn fit(profile: &Profile, t: f64, foot: f64) -> Option<Fit> {
     let stretch = t.powf(EXPONENT);
     let middle = (0..profile.x.len()).filter(|&i| (0.0..COVERED * foot).contains(&profile.x[i]));
@@ -90,20 +90,20 @@ pub(crate) fn fit(profile: &Profile, t: f64, foot: f64) -> Option<Fit> {
         let largest = (0..eta.len()).map(|i| off(i).abs()).fold(0.0, f64::max);
         (squares, largest / height)
     };
-    // A parabola through the middle and the last place.
+    // A parabola through the center and the last point.
     let (last_eta, last_f) = (*eta.last()?, *f.last()?);
     let guess = 2.0 * (last_f - height) / (last_eta * last_eta);
     let curvature = least(|c| misfit(c).0, BRACKET.0 * guess, BRACKET.1 * guess);
     Some(Fit { height, curvature, error: misfit(curvature).1 })
 }
 
-/// f(0) by the even parabola through the first two places.
+/// f(0) by the even parabola through the first two points.
 fn height_at_zero(eta: &[f64], f: &[f64]) -> Option<f64> {
     let (a, b) = (eta.first()?.powi(2), eta.get(1)?.powi(2));
     Some((f[0] * b - f[1] * a) / (b - a))
 }
 
-/// Where a function of one minimum is least, by golden section.
+/// The minimum of a unimodal function by golden-section search.
 fn least(function: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut a, mut b) = (from, to);
@@ -135,10 +135,10 @@ mod tests {
         assert_eq!(f.len(), eta.len());
         for i in 2..95 {
             let third = (f[i + 2] - 2.0 * f[i + 1] + 2.0 * f[i - 1] - f[i - 2]) / (2.0 * step.powi(3));
-            // The differences are good to the fifth derivative times a quarter of the squared step.
+            // The differences are accurate to the fifth derivative times a quarter of the squared step.
             assert!((third - eta[i] / (7.0 * f[i] * f[i])).abs() < 1.0e-2, "{i}: {third}");
         }
-        // The no-slip singularity: near the wall the shot turns and never comes down to it.
+        // The no-slip singularity: near the wall the solution turns and never reaches it.
         let far: Vec<f64> = (0..200).map(|i| step * f64::from(i)).collect();
         let f = shoot(0.27, -1.2, &far);
         assert!(f.len() == 200 && f.iter().all(|&f| f > 0.0) && f[199] > f[150], "{f:?}");

@@ -1,4 +1,4 @@
-//! The thin film as the simulation loop sees it: SI units outside, scaled inside.
+//! The thin film as a solver for the simulation loop: SI units outside, scaled inside.
 
 use std::borrow::Cow;
 use std::time::Instant;
@@ -14,10 +14,10 @@ use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Lines, Snapshot, Values};
 use crate::solver::{Measure, PartTime, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
 
-/// Scaled time after which a partially wetting film is at rest.
+/// Scaled time after which a partially wetting film is in equilibrium.
 const LONG: f64 = 100.0;
 
-/// A film that is observed, and how far it has come.
+/// A film with its history and progress.
 #[derive(Debug, Clone)]
 pub(crate) struct ThinFilmSolver {
     observed: ObservedFilm,
@@ -27,7 +27,7 @@ pub(crate) struct ThinFilmSolver {
     seconds: f64,
 }
 
-/// All that the future depends on.
+/// The complete state for resuming.
 #[derive(Serialize, Deserialize)]
 struct Saved {
     time: f64,
@@ -52,7 +52,7 @@ impl ThinFilmSolver {
         }
     }
 
-    /// Why heights fall below 0, and what would help.
+    /// The cause of negative heights, and the remedy.
     fn why_negative(&self) -> &'static str {
         if self.observed.surroundings.rest.is_some() && self.observed.film.time() > LONG {
             "as films long at rest do (end the run earlier, or take a smaller spacing and a domain that the film does not fill)"
@@ -210,7 +210,7 @@ impl Solver for ThinFilmSolver {
         };
         let (time, dt, steps, history) = (self.observed.time, self.dt, self.steps, self.observed.history.clone());
         let saved = Saved { time, dt, steps, scaled_time, next, corrects, values, history };
-        // Numbers in a list always fit into a vector of bytes.
+        // Serializing numbers into a vector of bytes cannot fail.
         postcard::to_stdvec(&saved).unwrap_or_default()
     }
 

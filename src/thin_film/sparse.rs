@@ -1,7 +1,6 @@
-//! Sparse matrices whose entries stand at the same places all through a run: LU factors by faer, their pattern found once.
+//! Sparse matrices with a sparsity pattern that is constant during a run: LU factors by faer, with one symbolic factorization.
 //!
-//! An entry that is told twice is the sum of both. A matrix of rank one can be added to a factored matrix by the formula of Sherman and
-//! Morrison.
+//! Duplicate entries are added. A matrix of rank one can be added to a factored matrix by the Sherman-Morrison formula.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,9 +11,9 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 
 use crate::math::factor_in_one_thread;
 
-/// The library's count of rows and entries: half the memory of the machine's, and less to move.
+/// The index type of the library: half the memory of a machine word.
 type Count = u32;
-/// Entries that a pattern may have, so that those of its factors can be counted too.
+/// Maximum number of entries of a pattern, such that those of its factors can be indexed too.
 const MOST_ENTRIES: usize = 1 << 28;
 
 /// A matrix that is too large for the memory.
@@ -22,11 +21,11 @@ const MOST_ENTRIES: usize = 1 << 28;
 #[error("a sparse matrix of {0} rows does not fit into the memory")]
 pub struct TooLarge(pub usize);
 
-/// Where the entries of a matrix stand, and in which order it is eliminated.
+/// The sparsity pattern of a matrix with its elimination order.
 #[derive(Clone)]
-pub(crate) struct Pattern(Arc<Places>);
+pub(crate) struct Pattern(Arc<Structure>);
 
-struct Places {
+struct Structure {
     matrix: SymbolicSparseColMat<Count>,
     order: Argsort<Count>,
     elimination: SymbolicLu<Count>,
@@ -48,23 +47,23 @@ struct RankOne {
 }
 
 impl Pattern {
-    /// The pattern of a square matrix whose entries are told in the order of `places`, as row and column.
-    pub(crate) fn new(size: usize, places: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
+    /// The pattern of a square matrix whose entries are given as row and column, in the order of `indices`.
+    pub(crate) fn new(size: usize, indices: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
         factor_in_one_thread();
         let pair = |(row, column): (usize, usize)| Pair { row: row as Count, col: column as Count };
-        let pairs: Vec<Pair<Count, Count>> = places.into_iter().map(pair).collect();
+        let pairs: Vec<Pair<Count, Count>> = indices.into_iter().map(pair).collect();
         if size > MOST_ENTRIES || pairs.len() > MOST_ENTRIES {
             return Err(TooLarge(size));
         }
         let (matrix, order) =
             SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).map_err(|_| TooLarge(size))?;
         let elimination = SymbolicLu::try_new(matrix.as_ref()).map_err(|_| TooLarge(size))?;
-        Ok(Self(Arc::new(Places { matrix, order, elimination })))
+        Ok(Self(Arc::new(Structure { matrix, order, elimination })))
     }
 
-    /// Factors of the matrix with these values in the order of the pattern; none where it is singular or not finite.
+    /// Factors of the matrix with these values in the order of the pattern; `None` if it is singular or not finite.
     pub(crate) fn factor(&self, values: &[f64]) -> Option<Factors> {
-        let Places { matrix, order, elimination } = self.0.as_ref();
+        let Structure { matrix, order, elimination } = self.0.as_ref();
         if !values.iter().all(|value| value.is_finite()) {
             return None;
         }
@@ -81,7 +80,7 @@ impl fmt::Debug for Pattern {
 }
 
 impl Factors {
-    /// The factors with the matrix `column` `row`ᵀ added; none where the sum is singular.
+    /// The factors with the matrix `column` `row`ᵀ added; `None` if the sum is singular.
     pub(crate) fn with_rank_one(mut self, mut column: Vec<f64>, row: Vec<f64>) -> Option<Self> {
         self.solve(&mut column);
         let denominator = 1.0 + dot(&row, &column);
@@ -108,24 +107,24 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A cyclic matrix without a large diagonal, told with every entry in two parts.
+    /// A cyclic matrix without diagonal dominance, with every entry given in two parts.
     fn ring(size: usize) -> (Vec<(usize, usize)>, Vec<f64>) {
-        let mut places = Vec::new();
+        let mut indices = Vec::new();
         let mut values = Vec::new();
         for row in 0..size {
             for offset in 0..5 {
                 let column = (row + size + offset - 2) % size;
                 let value = (1.0 + (3 * row * row + 7 * column + 5 * row * column) as f64).sin();
-                places.extend([(row, column); 2]);
+                indices.extend([(row, column); 2]);
                 values.extend([0.3 * value, 0.7 * value]);
             }
         }
-        (places, values)
+        (indices, values)
     }
 
-    fn times(places: &[(usize, usize)], values: &[f64], x: &[f64]) -> Vec<f64> {
+    fn times(indices: &[(usize, usize)], values: &[f64], x: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; x.len()];
-        places.iter().zip(values).for_each(|(&(row, column), value)| product[row] += value * x[column]);
+        indices.iter().zip(values).for_each(|(&(row, column), value)| product[row] += value * x[column]);
         product
     }
 
@@ -136,13 +135,13 @@ mod tests {
     #[test]
     fn a_solved_system_gives_back_its_right_side_with_and_without_a_matrix_of_rank_one() {
         for size in [5, 12, 80] {
-            let (places, values) = ring(size);
+            let (indices, values) = ring(size);
             let x: Vec<f64> = (0..size).map(|i| 1.0 + (0.7 * i as f64).cos()).collect();
-            let factors = Pattern::new(size, places.clone()).unwrap().factor(&values).unwrap();
-            let product = times(&places, &values, &x);
+            let factors = Pattern::new(size, indices.clone()).unwrap().factor(&values).unwrap();
+            let product = times(&indices, &values, &x);
             let mut solved = product.clone();
             factors.solve(&mut solved);
-            // Rounding times a condition number of some thousand.
+            // Rounding times a condition number of several thousand.
             assert!(largest_difference(&solved, &x) < 1.0e-10, "{size}");
 
             let column: Vec<f64> = (0..size).map(|i| (1.1 * i as f64).sin()).collect();
@@ -156,12 +155,12 @@ mod tests {
 
     #[test]
     fn a_pattern_serves_many_matrices() {
-        let (places, values) = ring(30);
-        let pattern = Pattern::new(30, places.clone()).unwrap();
+        let (indices, values) = ring(30);
+        let pattern = Pattern::new(30, indices.clone()).unwrap();
         for scale in [1.0, -2.5, 1.0e6] {
             let scaled: Vec<f64> = values.iter().map(|value| scale * value).collect();
             let x: Vec<f64> = (0..30).map(|i| f64::from(i).sqrt()).collect();
-            let mut solved = times(&places, &scaled, &x);
+            let mut solved = times(&indices, &scaled, &x);
             pattern.factor(&scaled).unwrap().solve(&mut solved);
             assert!(largest_difference(&solved, &x) < 1.0e-10, "{scale}");
         }

@@ -1,12 +1,12 @@
-//! Sums of the kernel and its derivatives over particles: O(N) by recursion, and O(N²) as its oracle.
+//! Sums of the kernel and its derivatives over particles: O(N) by recursion, and O(N²) for comparison.
 //!
-//! h̄⁽ᵏ⁾(xᵢ) = Σⱼ wⱼ Φ⁽ᵏ⁾(xᵢ − xⱼ) [Pang2022, Sect. 3]. The paper's running sums of w e^(±x/α) overflow once |x| > 709 α; here
-//! each particle hands its sums on to the next one with a decay e^(−d/α) over the gap d, so that no exponent is positive.
-//! Positions ascend; particles at the same place must be merged before (the order of equals would matter to Φ''').
+//! h̄⁽ᵏ⁾(xᵢ) = Σⱼ wⱼ Φ⁽ᵏ⁾(xᵢ − xⱼ) [Pang2022, Sect. 3]. The paper's running sums of w e^(±x/α) overflow for |x| > 709 α; here each particle passes its sums
+//! on to the next one with a decay e^(−d/α) over the gap d, so that no exponent is positive. Positions are ascending; coincident particles must be merged
+//! before (their order would affect Φ''').
 
 use super::kernel::{Kernel, Order};
 
-/// h̄ and its first three derivatives, one value per particle or place.
+/// h̄ and its first three derivatives, one value per particle or position.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Smoothed {
     /// h̄.
@@ -20,14 +20,14 @@ pub struct Smoothed {
 }
 
 impl Smoothed {
-    /// Room for `count` values.
+    /// Zeros for `count` values.
     pub fn new(count: usize) -> Self {
         let zeros = || vec![0.0; count];
         Self { height: zeros(), slope: zeros(), curvature: zeros(), third: zeros() }
     }
 }
 
-/// Σ w e^(−d/α) and Σ w d e^(−d/α) over the particles on one side of a place, d their distance.
+/// Σ w e^(−d/α) and Σ w d e^(−d/α) over the particles on one side of a point, d their distance.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct OneSided {
     pub(crate) plain: f64,
@@ -35,20 +35,20 @@ pub(super) struct OneSided {
 }
 
 impl OneSided {
-    /// The sums at a place farther away by `gap`, with `decay` = e^(−gap/α).
+    /// The sums at a point farther away by `gap`, with `decay` = e^(−gap/α).
     #[inline]
     pub(crate) fn moved(self, gap: f64, decay: f64) -> Self {
         Self { plain: decay * self.plain, weighted: decay * (self.weighted + gap * self.plain) }
     }
 
-    /// The sums with one more particle at the present place.
+    /// The sums with one more particle at the present point.
     #[inline]
     pub(crate) fn with(self, weight: f64) -> Self {
         Self { plain: self.plain + weight, ..self }
     }
 }
 
-/// The factors in front of the sums.
+/// The coefficients of the sums.
 #[derive(Debug, Clone, Copy)]
 struct Factors {
     alpha: f64,
@@ -64,7 +64,7 @@ impl Factors {
     }
 }
 
-/// The recursion with its memory, to be used again at each step.
+/// The recursion with its work space, reused in each step.
 #[derive(Debug, Clone)]
 pub struct FastSums {
     kernel: Kernel,
@@ -72,18 +72,18 @@ pub struct FastSums {
 }
 
 impl FastSums {
-    /// Sums with the given kernel.
+    /// Sums for the given kernel.
     pub fn new(kernel: Kernel) -> Self {
         Self { kernel, decay: Vec::new() }
     }
 
-    /// h̄ and its derivatives at the particles. `x` ascends; `x`, `weight` and the fields of `out` have one length.
+    /// h̄ and its derivatives at the particles. `x` is ascending; `x`, `weight` and the fields of `out` have the same length.
     pub fn at_particles(&mut self, x: &[f64], weight: &[f64], out: &mut Smoothed) {
         let count = x.len();
         let rate = -1.0 / self.kernel.alpha();
         self.decay.clear();
         self.decay.extend(x.windows(2).map(|pair| (rate * (pair[1] - pair[0])).exp()));
-        // The left sums wait in the fields that they will become part of.
+        // The left sums are stored in the fields to which they contribute.
         let mut left = OneSided::default();
         for i in 0..count {
             if i > 0 {
@@ -108,31 +108,31 @@ impl FastSums {
         }
     }
 
-    /// h̄, h̄ₓ and h̄ₓₓ at other places, ascending; the third derivative, which jumps at particles, is left at zero.
-    pub(crate) fn at_places(&self, x: &[f64], weight: &[f64], places: &[f64]) -> Smoothed {
+    /// h̄, h̄ₓ and h̄ₓₓ at other ascending positions; the third derivative, which jumps at particles, is left at zero.
+    pub(crate) fn at_places(&self, x: &[f64], weight: &[f64], positions: &[f64]) -> Smoothed {
         let rate = -1.0 / self.kernel.alpha();
         let factors = Factors::new(&self.kernel);
         let moved = |sums: OneSided, gap: f64| sums.moved(gap, (rate * gap).exp());
-        let mut out = Smoothed::new(places.len());
-        // Sums at the last particle passed, that particle included.
+        let mut out = Smoothed::new(positions.len());
+        // Sums at the last particle passed, including that particle.
         let (mut sums, mut next) = (OneSided::default(), 0);
-        for (i, &place) in places.iter().enumerate() {
-            while next < x.len() && x[next] <= place {
+        for (i, &position) in positions.iter().enumerate() {
+            while next < x.len() && x[next] <= position {
                 let gap = if next == 0 { 0.0 } else { x[next] - x[next - 1] };
                 sums = moved(sums, gap).with(weight[next]);
                 next += 1;
             }
-            let here = if next == 0 { sums } else { moved(sums, place - x[next - 1]) };
+            let here = if next == 0 { sums } else { moved(sums, position - x[next - 1]) };
             (out.height[i], out.slope[i]) = (here.plain, here.weighted);
         }
         let (mut sums, mut next) = (OneSided::default(), x.len());
-        for (i, &place) in places.iter().enumerate().rev() {
-            while next > 0 && x[next - 1] > place {
+        for (i, &position) in positions.iter().enumerate().rev() {
+            while next > 0 && x[next - 1] > position {
                 let gap = if next == x.len() { 0.0 } else { x[next] - x[next - 1] };
                 sums = moved(sums, gap).with(weight[next - 1]);
                 next -= 1;
             }
-            let right = if next == x.len() { sums } else { moved(sums, x[next] - place) };
+            let right = if next == x.len() { sums } else { moved(sums, x[next] - position) };
             let (a, b) = (out.height[i], out.slope[i]);
             let (both, far) = (factors.alpha * (a + right.plain), b + right.weighted);
             out.height[i] = factors.height * (both + far);
@@ -143,7 +143,7 @@ impl FastSums {
     }
 }
 
-/// The sums term by term, in any order of particles: slow, and without a recursion that could go wrong.
+/// The direct sums, for particles in any order: slow, but without recursion.
 pub fn direct_sums(kernel: &Kernel, x: &[f64], weight: &[f64]) -> Smoothed {
     let sum = |order: Order| -> Vec<f64> {
         x.iter().map(|&xi| x.iter().zip(weight).map(|(&xj, &wj)| wj * kernel.at(order, xi - xj)).sum()).collect()
@@ -206,13 +206,13 @@ mod tests {
     fn places_between_particles_see_the_direct_sums() {
         let (x, weight) = particles(300, 1.0);
         let kernel = Kernel::new(0.05);
-        let mut places: Vec<f64> = (0..400).map(|i| -1.6 + 0.0081 * f64::from(i)).collect();
-        places.extend_from_slice(&x);
-        places.sort_by(f64::total_cmp);
-        let found = FastSums::new(kernel).at_places(&x, &weight, &places);
+        let mut positions: Vec<f64> = (0..400).map(|i| -1.6 + 0.0081 * f64::from(i)).collect();
+        positions.extend_from_slice(&x);
+        positions.sort_by(f64::total_cmp);
+        let found = FastSums::new(kernel).at_places(&x, &weight, &positions);
         let sum = |order: Order| -> Vec<f64> {
             let at = |&p: &f64| x.iter().zip(&weight).map(|(&xj, &wj)| wj * kernel.at(order, p - xj)).sum();
-            places.iter().map(at).collect()
+            positions.iter().map(at).collect()
         };
         assert!(difference(&found.height, &sum(Order::Value)) < 1.0e-12);
         assert!(difference(&found.slope, &sum(Order::First)) < 1.0e-12);

@@ -1,12 +1,12 @@
-//! What a reader must know before trusting the measures of a thin film: what its particles, its domain or its equation do to them.
+//! Limitations on the measures of a thin film due to its particles, its domain or its equation.
 
 use super::observed::ObservedFilm;
 
-/// Slope of the particle lattice over that of the film from which the contact line of a spreading droplet is a percent short.
+/// Slope of the particle lattice over that of the film above which the contact line of a spreading droplet lags by one percent.
 const VISIBLE: f64 = 0.5;
-/// Scaled time after which a partially wetting film has come to rest.
+/// Scaled time after which a partially wetting film has reached equilibrium.
 const AT_REST: f64 = 20.0;
-/// Distance from the droplet at rest over its area from which a film at rest is not that droplet.
+/// Distance from the equilibrium droplet over its area above which a film at rest differs from it.
 const OFF: f64 = 0.02;
 
 /// All warnings of a film.
@@ -25,9 +25,9 @@ fn covered(observed: &ObservedFilm) -> Option<String> {
     })
 }
 
-/// A film without attraction to itself joins droplets, and makes none.
+/// A film without disjoining pressure lets droplets coalesce, but does not break up.
 fn apart(observed: &ObservedFilm) -> Option<String> {
-    // A film that covers the wall is flat but for rounding.
+    // A film that covers the wall is flat except for rounding.
     observed.foot()?;
     let (most, found) = (observed.surroundings.most_droplets?, observed.profile().peaks());
     (found > most).then(|| {
@@ -38,7 +38,7 @@ fn apart(observed: &ObservedFilm) -> Option<String> {
     })
 }
 
-/// Particles hold the contact line back, in partial wetting by an angle that is known before the run.
+/// Particles retard the contact line, in partial wetting by an angle that is known before the run.
 fn lattice(observed: &ObservedFilm) -> Option<String> {
     let slope = observed.film.lattice_slope()?;
     if observed.surroundings.takes_lattice_off {
@@ -57,7 +57,7 @@ fn lattice(observed: &ObservedFilm) -> Option<String> {
     })
 }
 
-/// A film that no longer moves and is not the droplet at rest.
+/// A film at rest that differs from the equilibrium droplet.
 fn off(observed: &ObservedFilm) -> Option<String> {
     let droplet = observed.surroundings.equilibrium.filter(|_| observed.film.time() > AT_REST)?;
     let distance = observed.profile().distance_to(|x| droplet.height(x - observed.surroundings.right)) / droplet.area;

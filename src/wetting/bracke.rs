@@ -1,8 +1,8 @@
 //! The fit of Bracke, De Voeght and Joos of the apparent angles of tapes drawn into liquids [Bracke1989].
 //!
-//! (cos θ_e − cos θ_d)/(cos θ_e + 1) = 2 Ca^(1/2), for lines that advance; the same law describes capillary rise (Joos et al. 1990). A receding
-//! line takes the same change of the cosine with the other sign, which nobody has measured. It is the angle far from the line, as
-//! Jiang's is. Beyond the Ca at which the angle reaches 180 degrees (0.25 at θ_e = 0) it stays there.
+//! (cos θ_e − cos θ_d)/(cos θ_e + 1) = 2 Ca^(1/2), for advancing lines; the same law describes capillary rise (Joos et al. 1990). For a receding line the
+//! change of the cosine is taken with the opposite sign, an extrapolation without measurements. The angle is that far from the line, as in Jiang's fit. Above
+//! the Ca at which it reaches 180 degrees (0.25 at θ_e = 0) it stays there.
 
 use super::law::{LineState, Parameter, WettingModel, law};
 

@@ -1,9 +1,9 @@
 //! Viscous bending of the interface below the spacing, between two fluids of any viscosities [Cox1986].
 //!
-//! Beside a moving contact line dθ/d ln r = Ca f(θ, q), with the ratio q of the viscosity of the other phase to that of the wetting one. A wall that slips by
-//! λ holds the static angle up to about r = λ; the flow that is simulated holds the imposed angle up to about the slip length b of the
-//! walls near lines, which the spacing resolves. With ∫ dθ/f = Ca ln(b/λ) from the one angle to the other, both flows are the same
-//! farther out, so that neither speeds nor shapes depend on the spacing. For capillary numbers below about .1; inertia is left out.
+//! Near a moving contact line dθ/d ln r = Ca f(θ, q), with q the viscosity of the other phase over that of the wetting one. A wall with slip length λ keeps
+//! the static angle up to about r = λ; the simulated flow keeps the imposed angle up to about the slip length b of the walls near lines, which the spacing
+//! resolves. With ∫ dθ/f = Ca ln(b/λ) between the two angles, both flows agree farther out, so that neither speeds nor shapes depend on the spacing. Valid
+//! for capillary numbers below about 0.1; inertia is neglected.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use super::law::{LineState, Parameter, WettingModel, law};
 /// Intervals of Simpson's rule.
 const INTERVALS: usize = 24;
 
-/// Halvings and Newton steps of the search for the angle; Newton's need about four.
+/// Maximum number of bisection and Newton steps for the angle; about four Newton steps suffice.
 const STEPS: usize = 40;
 
-/// The angle is found to this, in rad.
+/// Tolerance of the angle in rad.
 const TOLERANCE: f64 = 1e-7;
 
 law! {
@@ -29,7 +29,7 @@ law! {
 }
 
 impl WettingModel for Cox {
-    /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d; 0 or π where there is none, as the line then leaves a film.
+    /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d; 0 or π where there is no solution, as the line then deposits a film.
     fn angle(&self, line: &LineState) -> f64 {
         let static_angle = self.static_angle();
         let decades = (line.slip_length / self.slip_length).ln().max(0.0);
@@ -76,7 +76,7 @@ fn bending(a: f64, b: f64, q: f64) -> f64 {
 
 /// 1/f(θ, q) of Cox 1986, smooth and 0 at θ = 0.
 fn inverse_of_f(angle: f64, q: f64) -> f64 {
-    // Below this, and as near to π, rounding eats the differences: the leading terms θ²/3 and q (π − θ)²/3.
+    // Below this, and as near to π, the differences cancel: the leading terms θ²/3 and q (π − θ)²/3.
     const SMALL: f64 = 1e-2;
     let other = PI - angle;
     if angle < SMALL {
@@ -114,7 +114,7 @@ mod tests {
     fn the_same_line_told_through_the_other_phase_has_the_other_angle() {
         for (degrees, q, speed) in [(60.0, 0.3, 0.02), (90.0, 1.0, -0.02), (130.0, 5.0, 0.004)] {
             let here = Cox { contact_angle_deg: degrees, slip_length: 0.01 }.angle(&line(speed, q, 1.0));
-            // The other phase retreats, and its capillary number has its own viscosity.
+            // The other phase recedes, and its capillary number has its own viscosity.
             let there = LineState { viscosity: q, other_viscosity: 1.0, ..line(-speed, q, 1.0) };
             let there = Cox { contact_angle_deg: 180.0 - degrees, slip_length: 0.01 }.angle(&there);
             assert!((here + there - PI).abs() < 1e-6, "{here} {there}");

@@ -1,9 +1,9 @@
-//! Viscous bending of the interface between the slip length and the scale of the fit [Voinov1976; Cox1986].
+//! Viscous bending of the interface between the slip length and the scale of the circle fit [Voinov1976; Cox1986].
 //!
-//! θ_d³ = θ_e³ + 9 Ca ln(L/λ): closer to the line than the fit sees, the flow bends the interface. λ is the slip length of the
-//! liquid on its wall, L the smoothing length h. What bends farther out is resolved, so that a finer spacing takes less from the
-//! law and more from the flow, and the apparent angle at a given distance should not change (Afkhami et al. 2009).
-//! For small capillary numbers, angles up to about 135 degrees and another phase of small viscosity.
+//! θ_d³ = θ_e³ + 9 Ca ln(L/λ): closer to the line than the fit resolves, the flow bends the interface. λ is the slip length of the liquid on the wall, L the
+//! smoothing length h. Bending farther out is resolved, so that with a finer spacing the law contributes less and the flow more, and the apparent angle at a
+//! given distance should not change (Afkhami et al. 2009). Valid for small capillary numbers, angles up to about 135 degrees and another phase of small
+//! viscosity.
 
 use std::f64::consts::PI;
 

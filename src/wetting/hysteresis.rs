@@ -1,9 +1,8 @@
-//! A hysteresis range: between the receding and the advancing angle the contact line holds its place.
+//! Contact angle hysteresis: between the receding and the advancing angle the contact line is pinned.
 //!
-//! At rest the angle is whatever the drop needs, up to the bounds; at a bound the line lets go and moves with the angle of that
-//! bound (Dussan 1979). With the pressure jump the line holds indeed: the fit passes through the anchor of the line, a point of the wall
-//! that only a line at a bound takes along (`sph::wetting::lines`). With the continuum force a line within its range is only not
-//! driven, and creeps with whatever flow there is.
+//! At rest the angle takes any value within the range; at a bound the line depins and moves with the angle of that bound (Dussan 1979). With the pressure
+//! jump the line is strictly pinned: the fit passes through the anchor of the line, a point of the wall that moves only with a line at a bound
+//! (`sph::wetting::lines`). With the continuum force a line within its range is merely not driven, and creeps with the flow.
 
 use super::law::{LineState, Parameter, WettingModel, law};
 use super::tadmor::{order, tadmor};
@@ -20,13 +19,13 @@ law! {
 }
 
 impl WettingModel for Hysteresis {
-    /// The present angle within the range, else the bound next to it.
+    /// The present angle clamped to the range.
     fn angle(&self, line: &LineState) -> f64 {
         let [receding, advancing] = self.hysteresis_range();
         line.present.max(receding).min(advancing)
     }
 
-    /// The angle of equilibrium that belongs to both bounds \[Tadmor2004\].
+    /// The equilibrium angle that belongs to both bounds \[Tadmor2004\].
     fn static_angle(&self) -> f64 {
         let [receding, advancing] = self.hysteresis_range();
         tadmor(advancing, receding)

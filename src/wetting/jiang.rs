@@ -1,7 +1,7 @@
 //! The fit of Jiang, Oh and Slattery of the apparent angles that Hoffman measured in capillaries [Jiang1979; Hoffman1975].
 //!
-//! (cos θ_e − cos θ_d)/(cos θ_e + 1) = tanh(4.96 Ca^0.702), for lines that advance. A receding line takes the same change of the
-//! cosine with the other sign, which nobody has measured. It is the angle far from the line, as Kistler's is.
+//! (cos θ_e − cos θ_d)/(cos θ_e + 1) = tanh(4.96 Ca^0.702), for advancing lines. For a receding line the change of the cosine is taken with the opposite
+//! sign, an extrapolation without measurements. The angle is that far from the line, as in Kistler's fit.
 
 use super::law::{LineState, Parameter, WettingModel, law};
 

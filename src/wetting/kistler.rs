@@ -1,8 +1,7 @@
 //! Kistler's fit of the apparent angles that Hoffman measured in capillaries [Kistler1993; Hoffman1975].
 //!
-//! θ_d = f_H(Ca + f_H⁻¹(θ_e)), f_H(x) = arccos(1 − 2 tanh(5.16 (x/(1 + 1.31 x^0.99))^0.706)). Measured for silicone oils that push
-//! air from glass; a receding line is the continuation of the same curve. It is the angle far from the line: beside a flow that is resolved finely it counts
-//! viscous bending twice.
+//! θ_d = f_H(Ca + f_H⁻¹(θ_e)), f_H(x) = arccos(1 − 2 tanh(5.16 (x/(1 + 1.31 x^0.99))^0.706)). Measured for silicone oils displacing air in glass capillaries;
+//! receding lines continue the same curve. The angle is that far from the line: with a finely resolved flow, viscous bending is counted twice.
 
 use std::f64::consts::PI;
 
@@ -16,7 +15,7 @@ law! {
     }
 }
 
-/// Beyond this argument Hoffman's function is 180 degrees to rounding.
+/// Above this argument Hoffman's function equals 180 degrees to rounding.
 const LARGEST_ARGUMENT: f64 = 1.0e3;
 
 impl WettingModel for Kistler {
@@ -30,13 +29,13 @@ impl WettingModel for Kistler {
     }
 }
 
-/// f_H, rising from 0 to π [Kistler1993].
+/// f_H, increasing from 0 to π [Kistler1993].
 fn hoffman(x: f64) -> f64 {
     let inner = 5.16 * (x / (1.0 + 1.31 * x.powf(0.99))).powf(0.706);
     (1.0 - 2.0 * inner.tanh()).clamp(-1.0, 1.0).acos().min(PI)
 }
 
-/// f_H⁻¹ by halving: f_H rises.
+/// f_H⁻¹ by bisection: f_H is increasing.
 fn shift(angle: f64) -> f64 {
     let (mut low, mut high) = (0.0, LARGEST_ARGUMENT);
     // From 1e3 to the last bit of 1e-6.

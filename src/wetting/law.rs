@@ -1,17 +1,16 @@
-//! What a wetting law is: parameters with keys, units and ranges, and the angle that follows from them.
+//! Definition of a wetting law: parameters with keys, units and ranges, and the angle that follows from them.
 //!
-//! The file of a law declares its parameters by `law!`, once. From that come the law, whose values are there and in range; its table in
-//! a case file (`raw`), in which every key is optional, so that one mistake does not hide another; the check that leads from the
-//! one to the other, and the way back. Parameters keep the units of their keys, angles in degrees and temperatures in °C; the report tells them
-//! in SI units and radians.
+//! The file of a law declares its parameters once, by `law!`. The macro generates the law, whose values are present and in range; its table in a case file
+//! (`raw`), in which every key is optional, so that one mistake does not hide another; and the conversion in both directions, with its checks. Parameters
+//! keep the units of their keys, angles in degrees and temperatures in °C; the report has them in SI units and radians.
 
 use crate::input::tables::Key;
 use crate::input::{Checker, Problem};
 
-/// What a law sees of a contact line.
+/// The state of a contact line, the argument of a law.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LineState {
-    /// Angle in rad, through the wetting phase, at which the interface meets the wall where the line stands.
+    /// Angle in rad, through the wetting phase, at which the interface meets the wall at the line.
     pub present: f64,
     /// Speed U of the line in m/s relative to the wall, positive where the wetting phase advances.
     pub speed: f64,
@@ -21,9 +20,9 @@ pub struct LineState {
     pub viscosity: f64,
     /// Dynamic viscosity of the other phase in Pa s.
     pub other_viscosity: f64,
-    /// Length in m over which the numerical method sees the angle: that of the circle fit, the smoothing length h.
+    /// Length in m over which the numerical method resolves the angle: that of the circle fit, the smoothing length h.
     pub length: f64,
-    /// Slip length in m that the flow has on walls near the line.
+    /// Slip length in m of the simulated flow on walls near the line.
     pub slip_length: f64,
 }
 
@@ -33,8 +32,8 @@ impl LineState {
         self.viscosity * self.speed / self.tension
     }
 
-    /// The angle in rad with (cos θ_e − cos θ_d)/(cos θ_e + 1) = `change` on a line that advances from the `static_angle` θ_e, and minus that
-    /// on one that recedes.
+    /// The angle in rad with (cos θ_e − cos θ_d)/(cos θ_e + 1) = `change` on a line that advances from the `static_angle` θ_e, and −`change` on a receding
+    /// one.
     pub(crate) fn angle_by_change_of_cosine(&self, static_angle: f64, change: f64) -> f64 {
         let cos_e = static_angle.cos();
         (cos_e - ((cos_e + 1.0) * change).copysign(self.speed)).clamp(-1.0, 1.0).acos()
@@ -46,15 +45,15 @@ pub(crate) trait WettingModel: Parameters {
     /// The angle at which the interface is to meet the wall.
     fn angle(&self, line: &LineState) -> f64;
 
-    /// The angle at rest; with hysteresis the one of equilibrium.
+    /// The static angle; with hysteresis the equilibrium angle.
     fn static_angle(&self) -> f64;
 
-    /// The angles between which a line at rest can stand: receding and advancing, equal but for a hysteresis range.
+    /// The range of static angles: receding and advancing, equal without hysteresis.
     fn hysteresis_range(&self) -> [f64; 2] {
         [self.static_angle(); 2]
     }
 
-    /// Whether the line stays where it stands while its angle is within the hysteresis range.
+    /// Whether the line is pinned while its angle is within the hysteresis range.
     fn pins(&self) -> bool {
         false
     }
@@ -64,27 +63,27 @@ pub(crate) trait WettingModel: Parameters {
         true
     }
 
-    /// What is wrong with the parameters together, each of them in its range; the path is a key.
+    /// Inconsistency of parameters that are each within range; the path is a key.
     fn contradiction(&self) -> Option<Problem> {
         None
     }
 }
 
-/// A value in SI units and radians whose key has another unit.
+/// The conversion to SI units and radians for a key with another unit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct InSi {
     /// Its name.
     pub name: &'static str,
-    /// The value, from that of the key.
+    /// The SI value from that of the key.
     pub of: fn(f64) -> f64,
 }
 
 /// A parameter of a law.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parameter {
-    /// What its key may hold.
+    /// Its key with the range of values.
     pub(crate) key: Key,
-    /// In SI units and radians, where its key has another unit.
+    /// The conversion to SI units and radians, if its key has another unit.
     pub si: Option<InSi>,
 }
 
@@ -107,7 +106,7 @@ impl Parameter {
         Self { key: Key::positive(what).example(example), si: None }
     }
 
-    /// Name and value in SI units and radians of what is the `value` of `field`.
+    /// Name and SI value of the parameter with this `value` of `field`.
     pub(crate) fn in_si(&self, field: &'static str, value: f64) -> (&'static str, f64) {
         self.si.map_or((field, value), |si| (si.name, (si.of)(value)))
     }
@@ -117,22 +116,22 @@ impl Parameter {
 pub(crate) trait Parameters: Sized {
     /// Its table in a case file.
     type Raw;
-    /// What the law says and, in parentheses, who found it.
+    /// The law in one line and, in parentheses, its source.
     const ABOUT: &'static str;
-    /// Its fields and what their keys may hold.
+    /// Its fields and the ranges of their keys.
     const KEYS: &'static [(&'static str, Key)];
 
-    /// The law, where all of its parameters are there and in range; `at` is the key path of the table.
+    /// The law, if all of its parameters are present and in range; `at` is the key path of the table.
     fn checked(raw: &Self::Raw, checker: &mut Checker, at: &str) -> Option<Self>;
 
-    /// The table that says the same.
+    /// The table equivalent to the law.
     fn raw(&self) -> Self::Raw;
 
     /// Keys and values of the table.
     fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)>;
 }
 
-/// The law whose parameters are there, in range and without a contradiction; `at` is the key path of its table.
+/// The law, if its parameters are present, in range and consistent; `at` is the key path of its table.
 pub(super) fn checked<L: WettingModel>(raw: &L::Raw, checker: &mut Checker, at: &str) -> Option<L> {
     let law = L::checked(raw, checker, at)?;
     if let Some(Problem { path, message, help }) = law.contradiction() {
@@ -142,7 +141,7 @@ pub(super) fn checked<L: WettingModel>(raw: &L::Raw, checker: &mut Checker, at: 
     Some(law)
 }
 
-/// The same law with other angles, by key, which stand in the table at the key path `at`.
+/// The same law with other angles, by key, given in the table at the key path `at`.
 pub(super) fn with_angles<L: WettingModel>(
     law: &L,
     checker: &mut Checker,
@@ -162,13 +161,13 @@ pub(super) fn parameter<L: WettingModel>(law: &L, key: &str) -> Option<f64> {
     L::entries(&mut raw).into_iter().find(|(name, _)| name == key).and_then(|(_, value)| *value)
 }
 
-/// Whether a key is an angle: patches of walls have angles of their own, and the other parameters of the model.
+/// Whether a key is an angle: patches of walls have their own angles; the other parameters are those of the model.
 pub(super) fn is_angle(key: &str) -> bool {
     key.ends_with("angle-deg")
 }
 
-/// Declares the parameters of a law: the comment on the law ends with its source in parentheses, those on its fields are the reference
-/// of the case file, and a field is followed by its [`Parameter`].
+/// Declares the parameters of a law: the comment on the law ends with its source in parentheses, those on its fields become the reference of the case file,
+/// and each field is followed by its [`Parameter`].
 macro_rules! law {
     (
         $(#[doc = $about:literal])+
@@ -182,7 +181,7 @@ macro_rules! law {
             $($(#[doc = $doc])+ pub $field: f64,)+
         }
 
-        /// In SI units and radians, as the report tells it.
+        /// In SI units and radians, as in the report.
         impl serde::Serialize for $law {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 serializer.collect_map([$($parameter.in_si(stringify!($field), self.$field),)+])

@@ -1,7 +1,7 @@
-//! Friction of the contact line in proportion to its speed [BrochardWyart1992; deGennes1985].
+//! Contact line friction proportional to the speed of the line [BrochardWyart1992; deGennes1985].
 //!
-//! σ (cos θ_e − cos θ_d) = ζ U: what the unbalanced Young force does not spend on the fluid is spent at the line. The linear limit
-//! of the molecular kinetic theory, with ζ = k T/(κ_0 λ³). Beyond |U| = 2 σ/ζ the angle stays at 0 or 180 degrees.
+//! σ (cos θ_e − cos θ_d) = ζ U: the part of the unbalanced Young force that is dissipated at the line rather than in the fluid. The linear limit of the
+//! molecular kinetic theory, with ζ = k T/(κ_0 λ³). For |U| > 2 σ/ζ the angle stays at 0 or 180 degrees.
 
 use super::law::{LineState, Parameter, WettingModel, law};
 

@@ -1,8 +1,8 @@
-//! Wetting models: the angle at which the interface is to meet a wall, given how the contact line moves.
+//! Wetting models: the contact angle imposed on the interface as a function of the motion of the contact line.
 //!
-//! A law is a file: its parameters with keys, units and ranges, and its formula. It is named once more here, in the list of `laws!`,
-//! which makes the enum, the table `[sph.wetting]` or `[network.wetting]` of a case file, and the rows of `meniscus list`. Which part of a
-//! wall has which law is said by `case`; lines that last from step to step, and their forces, are in `sph::wetting`.
+//! Each law has its own file: its parameters with keys, units and ranges, and its formula. It is named once more here, in the list of `laws!`, which
+//! generates the enum, the table `[sph.wetting]` or `[network.wetting]` of a case file, and the rows of `meniscus list`. The assignment of laws to parts of
+//! the walls is in `case`; persistent contact lines and their forces are in `sph::wetting`.
 
 mod bracke;
 mod cox;
@@ -74,17 +74,17 @@ macro_rules! laws {
                 match self { $(Self::$law(law) => law.angle(line),)+ }
             }
 
-            /// The static contact angle in rad; with hysteresis the one of equilibrium between both \[Tadmor2004\].
+            /// The static contact angle in rad; with hysteresis the equilibrium angle between both bounds \[Tadmor2004\].
             pub fn static_angle(&self) -> f64 {
                 match self { $(Self::$law(law) => law.static_angle(),)+ }
             }
 
-            /// The angles in rad between which a line at rest can stand: receding and advancing, equal but for a hysteresis range.
+            /// The range of static angles in rad: receding and advancing, equal without hysteresis.
             pub fn hysteresis_range(&self) -> [f64; 2] {
                 match self { $(Self::$law(law) => law.hysteresis_range(),)+ }
             }
 
-            /// Whether the line stays where it stands while its angle is within the range.
+            /// Whether the line is pinned while its angle is within the range.
             pub fn pins(&self) -> bool {
                 match self { $(Self::$law(law) => law.pins(),)+ }
             }
@@ -99,19 +99,18 @@ macro_rules! laws {
                 match self { $(Self::$law(_) => LawTable::of::<$law>(stringify!($table), stringify!($law)),)+ }
             }
 
-            /// The parameter of a key, in the unit of that key; none where the model has no such key.
+            /// The parameter of a key, in the unit of that key; `None` if the model has no such key.
             pub fn parameter(&self, key: &str) -> Option<f64> {
                 match self { $(Self::$law(law) => parameter(law, key),)+ }
             }
 
-            /// The same model with other angles, by key, which stand in the table at the key path `at`; none where these are missing
-            /// or wrong.
+            /// The same model with other angles, by key, given in the table at the key path `at`; `None` if these are missing or invalid.
             pub fn with_angles(&self, checker: &mut Checker, at: &str, angles: &[(&str, Option<f64>)]) -> Option<Self> {
                 match self { $(Self::$law(law) => with_angles(law, checker, at, angles).map(Self::$law),)+ }
             }
         }
 
-        /// The tables of the laws are checked where one of them is taken.
+        /// The table of a law is checked where that law is taken.
         impl<Patch: Default + Value> Value for $tables<Patch> {
             fn checked(self, _: &Key, checker: &mut Checker, path: &str) -> Option<Self> {
                 let patches = Key::ANY.checked(checker, path, "patches", self.patches);
@@ -120,13 +119,13 @@ macro_rules! laws {
         }
 
         impl<Patch: Default> $tables<Patch> {
-            /// The keys of the tables that are there, those of patches aside.
+            /// The keys of the tables present, except those of patches.
             pub(crate) fn given(&self) -> Vec<String> {
                 let all = [$((stringify!($table), self.$table.is_some()),)+];
                 all.iter().filter(|(_, given)| *given).map(|(table, _)| name(table)).collect()
             }
 
-            /// The model of the first table that is there; `at` is the key path of the tables. None where it is wrong.
+            /// The model of the first table present; `at` is the key path of the tables. `None` if it is invalid.
             pub(crate) fn checked(&self, checker: &mut Checker, at: &str) -> Option<Wetting> {
                 $(if let Some(raw) = &self.$table {
                     return checked(raw, checker, &format!("{at}.{}", name(stringify!($table)))).map(Wetting::$law);
@@ -168,22 +167,22 @@ laws! {
 }
 
 impl Wetting {
-    /// Whether the angle depends on where the line stands only, not on its motion or its past.
+    /// Whether the angle depends on the position of the line only, not on its motion or history.
     pub(crate) fn is_static(&self) -> bool {
         !self.is_dynamic() && !self.pins()
     }
 }
 
-/// What a law tells of its table in a case file.
+/// The documentation of a law and its table in a case file.
 #[derive(Debug, Clone)]
 pub struct LawTable {
     /// The key of the table: `cox-voinov`.
     pub key: String,
     /// The name of its type.
     pub type_name: &'static str,
-    /// What the law says and, in parentheses, who found it.
+    /// The law in one line and, in parentheses, its source.
     pub about: &'static str,
-    /// Its keys and what they may hold.
+    /// Its keys and their ranges.
     pub keys: Vec<(String, Key)>,
 }
 
@@ -198,7 +197,7 @@ impl LawTable {
         self.keys.iter().map(|(key, _)| key.as_str()).filter(|key| is_angle(key)).collect()
     }
 
-    /// What the law says, and its source.
+    /// The law in one line, and its source.
     pub fn what_and_source(&self) -> (&'static str, &'static str) {
         let (what, source) = self.about.rsplit_once(" (").unwrap_or((self.about, ""));
         (what, source.trim_end_matches(['.', ')']))

@@ -1,7 +1,7 @@
 //! The molecular kinetic theory of a moving contact line [Blake1969].
 //!
-//! U = 2 κ_0 λ sinh(σ (cos θ_e − cos θ_d) λ²/(2 k T)): molecules jump by λ between sites of the wall, κ_0 times a second at rest.
-//! The parameters come from fits to measured angles and hold for one pair of liquid and wall. Viscous bending is left to the flow.
+//! U = 2 κ_0 λ sinh(σ (cos θ_e − cos θ_d) λ²/(2 k T)): molecules jump a distance λ between adsorption sites of the wall with the equilibrium frequency κ_0.
+//! The parameters are fitted to measured angles and hold for one pair of liquid and wall. Viscous bending is left to the flow.
 
 use super::law::{InSi, LineState, Parameter, WettingModel, law};
 use crate::input::tables::Key;
@@ -12,7 +12,7 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 /// 0 degrees Celsius in K.
 const FREEZING: f64 = 273.15;
 
-/// Temperatures at which lines of liquids are measured.
+/// Range of temperatures of contact line measurements with liquids.
 const TEMPERATURE: Parameter = Parameter {
     key: Key::within("a temperature in degrees Celsius", -100.0, 500.0).example("temperature-c = 20.0").default(20.0),
     si: Some(InSi { name: "temperature", of: kelvin }),

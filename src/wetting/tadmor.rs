@@ -1,7 +1,7 @@
 //! The static angle that belongs to an advancing and a receding one [Tadmor2004; Huber2013, Table 1].
 //!
-//! cos θ = (Γ_A cos θ_A + Γ_R cos θ_R)/(Γ_A + Γ_R), Γ_i = (sin³θ_i/(2 − 3 cos θ_i + cos³θ_i))^(1/3). The line then moves as with
-//! Young's angle: it does not hold between the two (see `hysteresis`). The weights are those of drops in space.
+//! cos θ = (Γ_A cos θ_A + Γ_R cos θ_R)/(Γ_A + Γ_R), Γ_i = (sin³θ_i/(2 − 3 cos θ_i + cos³θ_i))^(1/3). The line then moves as with Young's angle: it is not
+//! pinned between the two (see `hysteresis`). The weights are those of three-dimensional drops.
 
 use super::law::{LineState, Parameter, WettingModel, law};
 use crate::input::Problem;
@@ -21,7 +21,7 @@ impl WettingModel for Tadmor {
         self.static_angle()
     }
 
-    /// The angle of equilibrium \[Tadmor2004\].
+    /// The equilibrium angle \[Tadmor2004\].
     fn static_angle(&self) -> f64 {
         tadmor(self.advancing_angle_deg.to_radians(), self.receding_angle_deg.to_radians())
     }
@@ -35,18 +35,18 @@ impl WettingModel for Tadmor {
     }
 }
 
-/// Contact angle of equilibrium in rad from an advancing and a receding one (Tadmor 2004).
+/// Equilibrium contact angle in rad from an advancing and a receding one (Tadmor 2004).
 ///
 /// cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G = (sin³/(2 - 3 cos + cos³))^(1/3).
 ///
-/// Written with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0 is one of equilibrium of 0.
+/// Evaluated with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0 gives an equilibrium angle of 0.
 pub(super) fn tadmor(advancing: f64, receding: f64) -> f64 {
     let inverse = |angle: f64| {
         let half = 0.5 * angle;
         (2.0 + angle.cos()) * half.tan() / (2.0 * half.cos().powi(2))
     };
     let (a, r) = (inverse(advancing), inverse(receding));
-    // G_A/G_R; two angles of 0 weigh alike.
+    // G_A/G_R; two angles of 0 have equal weights.
     let ratio = if a > 0.0 { (r / a).cbrt() } else { 1.0 };
     ((ratio * advancing.cos() + receding.cos()) / (ratio + 1.0)).clamp(-1.0, 1.0).acos()
 }
@@ -91,7 +91,7 @@ mod tests {
             // The arc cosine of 1 - 1e-16 is 1e-6 degrees.
             assert!((degrees(same, same) - same).abs() < 1.0e-5, "{same}: {}", degrees(same, same));
         }
-        // A receding angle of 0 outweighs any other, at the speed of its third root.
+        // A receding angle of 0 dominates any other one; the limit is approached as its cube root.
         let falling = [10.0, 1.0, 1.0e-3, 1.0e-9, 1.0e-20, 0.0].map(|receding| degrees(60.0, receding));
         assert!(falling.windows(2).all(|pair| pair[1] < pair[0]) && falling[5] == 0.0, "{falling:?}");
     }

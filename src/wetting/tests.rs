@@ -1,4 +1,4 @@
-//! What every law must do: the tests run over the list of laws, each with the examples of its parameters.
+//! Properties of every law: the tests run over the list of laws, each with the examples of its parameters.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use super::law::LineState;
 use super::{RawWetting, Wetting, laws};
 use crate::input::Checker;
 
-/// The tables, with nothing for patches.
+/// The tables, with a placeholder for patches.
 type Tables = RawWetting<bool>;
 
 /// A line of a case file that sets a key.
@@ -49,7 +49,7 @@ fn every_model_has_its_static_angle_at_rest() {
     for degrees in [20.0_f64, 46.8, 90.0, 130.0] {
         for model in models(degrees) {
             let found = model.angle(&line(0.0)).to_degrees();
-            // Kistler's function is inverted by halving, the others are closed.
+            // Kistler's function is inverted by bisection, the others in closed form.
             assert!((found - degrees).abs() < 1e-6, "{model:?}: {found}");
             assert!((model.static_angle().to_degrees() - degrees).abs() < 1e-9, "{model:?}");
         }
@@ -68,11 +68,11 @@ fn no_model_has_a_smaller_angle_at_a_higher_speed_and_all_stay_between_0_and_180
 
 #[test]
 fn the_report_has_angles_in_radians_and_temperatures_in_kelvin() {
-    let told: Vec<String> = models(60.0).iter().map(|model| serde_json::to_string(model).unwrap()).collect();
+    let json: Vec<String> = models(60.0).iter().map(|model| serde_json::to_string(model).unwrap()).collect();
     let angle = 60.0_f64.to_radians();
-    assert_eq!(told[0], format!("{{\"young\":{{\"contact_angle\":{angle:?}}}}}"));
-    assert_eq!(told[1], format!("{{\"tadmor\":{{\"advancing\":{angle:?},\"receding\":{angle:?}}}}}"));
-    assert!(told[3].ends_with("\"jump_length\":1e-9,\"temperature\":293.15}}"), "{}", told[3]);
+    assert_eq!(json[0], format!("{{\"young\":{{\"contact_angle\":{angle:?}}}}}"));
+    assert_eq!(json[1], format!("{{\"tadmor\":{{\"advancing\":{angle:?},\"receding\":{angle:?}}}}}"));
+    assert!(json[3].ends_with("\"jump_length\":1e-9,\"temperature\":293.15}}"), "{}", json[3]);
 }
 
 #[test]

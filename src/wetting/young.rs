@@ -1,7 +1,7 @@
 //! The unbalanced Young force (de Gennes 1985) as driving force of the contact line [Huber2013, Eq. 7].
 //!
-//! f = σ_ns − σ_ws − σ_wn cos α = σ_wn (cos θ − cos α): one angle, whatever the line does. Leaves out all that happens at the line
-//! below the scale of the fit; how fast the line moves is left to the slip of the wall.
+//! f = σ_ns − σ_ws − σ_wn cos α = σ_wn (cos θ − cos α): a constant angle, independent of the line. Effects at the line below the scale of the fit are not
+//! included; the speed of the line follows from the slip of the wall.
 
 use super::law::{LineState, Parameter, WettingModel, law};
 

@@ -1,7 +1,7 @@
-//! Which walls may face each other: the Delaunay triangulation of points sampled on them.
+//! Candidate pairs of facing walls, by the Delaunay triangulation of points sampled on them.
 //!
-//! The samples choose pairs and triples of pieces and starting points, nothing else; every number that follows from them is exact. A
-//! sampled triangulation needs no special case for unequal discs, arcs or vertices, where triangulations of centers miss pairs.
+//! The samples only select pairs and triples of pieces and starting points; all results computed from them are exact. A sampled triangulation needs no
+//! special cases for unequal discs, arcs or vertices, for which triangulations of centers miss pairs.
 
 use delaunator::{Point, triangulate};
 
@@ -10,33 +10,33 @@ use crate::geometry::critical::walls::{Link, Walls};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
-/// Samples around a full circle. Of 10,000 loops of a random pack none fails its certificate from 12 on.
+/// Samples around a full circle. With 12 or more none of 10,000 loops of a random pack fails its certificate.
 const PER_CIRCLE: f64 = 24.0;
 
-/// Samples along a piece, at least.
+/// Minimum number of samples on a piece.
 const PER_PIECE: usize = 2;
 
-/// Two pieces that may face each other: the first as it is, the second shifted.
+/// Two pieces that may face each other: the first one unshifted, the second one shifted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pair {
     /// Indices of the pieces.
     pub(crate) walls: [usize; 2],
-    /// Image of the second, that of the first being the base piece.
+    /// Periodic image of the second one; the first one is the base piece.
     pub(crate) shift: Shift,
-    /// A place between them in m.
+    /// A point between them in m.
     pub(crate) between: Vec2,
 }
 
-/// A place that may be near a maximum, with three pieces around it.
+/// A point that may be near a maximum, with the three pieces around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Triple {
     /// The pieces and their images.
     pub(crate) walls: [(usize, Shift); 3],
-    /// Where to begin, in m.
+    /// Starting point in m.
     pub(crate) start: Vec2,
 }
 
-/// Samples of all pieces, and how densely they stand.
+/// Samples of all pieces, and their density.
 pub(crate) struct Samples {
     /// Parameters on each base piece.
     pub(crate) along: Vec<Vec<f64>>,
@@ -50,7 +50,7 @@ impl Samples {
     }
 }
 
-/// Parameters along a piece: evenly spaced, and closer where another wall is near.
+/// Parameters along a piece: equidistant, and denser near other walls.
 fn sampled(walls: &Walls, k: usize, density: f64) -> Vec<f64> {
     let wall = &walls.walls[k];
     let turning = match wall.curve {
@@ -69,9 +69,9 @@ fn sampled(walls: &Walls, k: usize, density: f64) -> Vec<f64> {
     found
 }
 
-/// Whether a segment is one of many that make up a curve: its ends sample that as densely as a circle.
+/// Whether a segment is one of many that approximate a curve: its ends then sample that as densely as a circle.
 fn is_finely_cut(walls: &Walls, k: usize) -> bool {
-    // Neighbors of a sampled curve are about as long.
+    // Neighbors on an approximated curve have similar lengths.
     const LONGER: f64 = 4.0;
     let wall = &walls.walls[k];
     let is_like = |link: Option<Link>, turn: f64| {
@@ -82,11 +82,11 @@ fn is_finely_cut(walls: &Walls, k: usize) -> bool {
     matches!(wall.curve, Curve::Segment { .. }) && is_like(wall.before, wall.turn) && is_like(wall.next, turn_at_end)
 }
 
-/// Adds the start of an interval, halved as long as it is longer than twice the distance to another wall.
+/// Adds the start of an interval, bisected until it is at most twice as long as the distance to another wall.
 fn divide(walls: &Walls, k: usize, [from, to]: [f64; 2], density: f64, found: &mut Vec<f64>) {
     let wall = &walls.walls[k];
     let (middle, length) = (0.5 * (from + to), (to - from) * wall.curve.length());
-    // Samples nearer than this make no difference to any throat that counts.
+    // Denser samples make no difference to any relevant throat.
     const FLOOR: f64 = 30.0;
     if length > FLOOR * walls.tolerance {
         let (x, normal) = (wall.curve.point(middle), wall.curve.normal(middle));
@@ -128,7 +128,7 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
             }
         }
     }
-    // The library drops points nearer than an absolute distance: lengths are scaled to the domain.
+    // The library merges points below an absolute distance: lengths are scaled to the domain.
     let (center, scale) = (walls.domain.center(), walls.domain.size().max());
     let points: Vec<Point> = all
         .iter()
@@ -152,7 +152,7 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
         let [a, b, c] = samples.map(|s| (s.wall, s.shift));
         if a != b && b != c && a != c {
             let center = circumcenter(samples.map(|s| s.point));
-            // Only maxima within the domain count; those near its side may move in.
+            // Only maxima within the domain count; those near its sides may move into it.
             if center.is_some_and(|x| walls.domain.grown(0.5 * margin).contains(x)) {
                 triples.extend(center.map(|start| Triple { walls: [a, b, c], start }));
             }
@@ -181,7 +181,7 @@ pub(crate) fn sorted(mut pairs: Vec<Pair>) -> Vec<Pair> {
     pairs
 }
 
-/// Adds the pairs of pieces that two samples stand for: a vertex stands for both of its pieces.
+/// Adds the pairs of pieces represented by two samples: a vertex represents both of its pieces.
 fn add_pairs(walls: &Walls, a: &Sample, b: &Sample, pairs: &mut Vec<Pair>) {
     let between = 0.5 * (a.point + b.point);
     for p in pieces(walls, a) {

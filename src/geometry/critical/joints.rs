@@ -1,4 +1,4 @@
-//! How walls turn where pieces join, and how they are cut at the sides of the domain.
+//! Angles of walls where pieces join, and clipping of walls at the sides of the domain.
 
 use std::f64::consts::PI;
 
@@ -6,11 +6,11 @@ use crate::geometry::curve::{Curve, cross};
 use crate::geometry::intersect::meeting_places;
 use crate::math::{Bounds, perpendicular};
 
-/// The turn in rad, to the left above 0, from the end of one curve to the start of another one that leaves there.
+/// The angle in rad, positive to the left, from the end of one curve to the start of the next one.
 pub(super) fn turn(from: &Curve, to: &Curve, near: f64) -> f64 {
     let (t, s) = (from.tangent(1.0), to.tangent(0.0));
     let angle = cross(t, s).atan2(t.dot(&s));
-    // A cusp turns by half a circle to either side: the curves themselves tell where it opens.
+    // At a cusp the angle is ±π: the sign follows from the curves themselves.
     const CUSP: f64 = 1e-4;
     if PI - angle.abs() > CUSP {
         return angle;
@@ -21,8 +21,8 @@ pub(super) fn turn(from: &Curve, to: &Curve, near: f64) -> f64 {
     if (ahead - back).dot(&-perpendicular(t)) > 0.0 { -PI } else { PI }
 }
 
-/// The parts of a curve within a box along the axes that are not periodic, and along periodic ones where the curve is longer than the
-/// box. A part along a side of the box is kept where its pore lies within.
+/// The parts of a curve within a box along non-periodic axes, and along periodic ones if the curve is longer than the box. A part along a side of the box is
+/// kept if its pore lies within.
 pub(super) fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], tolerance: f64) -> Vec<Curve> {
     let bounds = curve.bounds();
     let cuts = |i: usize| !periodic[i] || bounds.max[i] - bounds.min[i] > 1.5 * frame.size()[i];
@@ -31,30 +31,30 @@ pub(super) fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], toleran
     if !leaves(0) && !leaves(1) {
         return vec![*curve];
     }
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     let far = frame.grown(bounds.size().norm() + frame.size().norm());
     for i in (0..2).filter(|&i| cuts(i)) {
         for level in [frame.min[i], frame.max[i]] {
             let (mut a, mut b) = (far.min, far.max);
             (a[i], b[i]) = (level, level);
-            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut places);
+            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut parameters);
         }
     }
-    places.retain(|u| u.is_finite());
-    places.sort_by(f64::total_cmp);
+    parameters.retain(|u| u.is_finite());
+    parameters.sort_by(f64::total_cmp);
     if curve.is_closed() {
-        match places.first() {
-            Some(&first) => places.push(first + 1.0),
-            None => places = vec![0.0, 1.0],
+        match parameters.first() {
+            Some(&first) => parameters.push(first + 1.0),
+            None => parameters = vec![0.0, 1.0],
         }
     } else {
-        places.insert(0, 0.0);
-        places.push(1.0);
+        parameters.insert(0, 0.0);
+        parameters.push(1.0);
     }
     let shortest = tolerance / curve.length();
     let mut parts = Vec::new();
-    let mut from = places[0];
-    for &to in &places[1..] {
+    let mut from = parameters[0];
+    for &to in &parameters[1..] {
         if to - from > shortest {
             let part = if (from, to) == (0.0, 1.0) { *curve } else { curve.part(from, to) };
             from = to;

@@ -1,8 +1,8 @@
-//! Level passages: stretches of the medial axis along which the wall distance stays the same.
+//! Level passages: sections of the medial axis along which the wall distance is constant.
 //!
-//! Between parallel segments, concentric arcs, and an arc about a vertex. Stretches that follow each other are one passage. It is one
-//! throat where the distance rises, or the domain ends, beyond both of its ends; one pore where it falls beyond both; a closed one is a
-//! pore and a throat at opposite places. Its middle within the domain stands for it.
+//! They occur between parallel segments, concentric arcs, and an arc about a vertex. Consecutive sections form one passage. It is one throat if the distance
+//! increases, or the domain ends, beyond both of its ends; one pore if it decreases beyond both; a closed one is a pore and a throat at opposite points. It
+//! is represented by its midpoint within the domain.
 
 use std::collections::HashMap;
 
@@ -14,14 +14,14 @@ use crate::geometry::curve::{Curve, cross};
 use crate::geometry::intersect::meeting_places;
 use crate::math::{Vec2, perpendicular};
 
-/// A stretch of one segment or arc.
+/// A section along one segment or arc.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     axis: Curve,
     along: [Along; 2],
 }
 
-/// Where a level passage ends.
+/// Kinds of ends of a level passage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum End {
     Rises,
@@ -30,7 +30,7 @@ enum End {
     Closed,
 }
 
-/// What a critical place is.
+/// Kinds of critical points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// A saddle of the wall distance.
@@ -39,15 +39,15 @@ pub(crate) enum Kind {
     Maximum(Opposite),
 }
 
-/// Tells what opposite points are, each level passage once.
+/// Classifies opposite points, each level passage once.
 #[derive(Default)]
 pub(crate) struct Classifier {
-    /// Stretches known by the indices of their two walls, with the images of those.
+    /// Known sections by the indices of their two walls, with the images of those.
     known: HashMap<[usize; 2], Vec<([Shift; 2], Curve)>>,
 }
 
 impl Classifier {
-    /// What the middle of two opposite points is: nothing, one thing, or two for a closed level passage.
+    /// Classification of the midpoint of two opposite points: none, one, or two for a closed level passage.
     pub(crate) fn classify(&mut self, walls: &Walls, at: &Opposite) -> Vec<Kind> {
         let t = perpendicular(at.across());
         let slopes = [slope(walls, at, t), slope(walls, at, -t)];
@@ -78,20 +78,20 @@ impl Classifier {
         if ends == [End::Closed; 2] {
             let length: f64 = passage.iter().map(|stretch| stretch.axis.length()).sum();
             return [
-                place(walls, &passage, 0.25 * length).map(Kind::Saddle),
-                place(walls, &passage, 0.75 * length).map(Kind::Maximum),
+                opposite_at(walls, &passage, 0.25 * length).map(Kind::Saddle),
+                opposite_at(walls, &passage, 0.75 * length).map(Kind::Maximum),
             ]
             .into_iter()
             .flatten()
             .collect();
         }
         let length: f64 = passage.iter().map(|stretch| stretch.axis.length()).sum();
-        let middle = place(walls, &passage, 0.5 * length).unwrap_or(*at);
+        let middle = opposite_at(walls, &passage, 0.5 * length).unwrap_or(*at);
         decide(ends, &middle).into_iter().collect()
     }
 
     fn is_known(&self, walls: &Walls, at: &Opposite, along: &[Along; 2]) -> bool {
-        // Passages are level up to this share of their width.
+        // Relative variation of the width of a level passage.
         const NEAR: f64 = 1e-5;
         let [a, b] = along.map(|along| base(&along));
         let (a, b) = if a.0 <= b.0 { (a, b) } else { (b, a) };
@@ -127,8 +127,8 @@ fn decide(ends: [End; 2], at: &Opposite) -> Option<Kind> {
     }
 }
 
-/// The opposite points at a length (m) along a passage.
-fn place(walls: &Walls, passage: &[Stretch], length: f64) -> Option<Opposite> {
+/// The opposite points at an arc length (m) along a passage.
+fn opposite_at(walls: &Walls, passage: &[Stretch], length: f64) -> Option<Opposite> {
     let mut passed = 0.0;
     for (k, stretch) in passage.iter().enumerate() {
         let here = stretch.axis.length();
@@ -157,7 +157,7 @@ fn contact(walls: &Walls, along: &Along, x: Vec2) -> Contact {
 fn follow(walls: &Walls, from: &Opposite, t: Vec2) -> (Vec<Stretch>, End) {
     let (mut at, mut t) = (*from, t);
     let mut passed = Vec::new();
-    // A passage has at most two stretches per piece and image; more means that rounding leads in circles.
+    // A passage has at most two sections per piece and image; more indicate a loop caused by rounding.
     for _ in 0..4 * walls.walls.len() + 16 {
         let along = match slope(walls, &at, t) {
             Slope::Level(along) => along,
@@ -188,20 +188,20 @@ fn follow(walls: &Walls, from: &Opposite, t: Vec2) -> (Vec<Stretch>, End) {
     (passed, End::Closed)
 }
 
-/// Where an axis comes back to where the passage was entered, as a parameter; the first axis begins there.
+/// The parameter at which an axis returns to the start of the passage; the first axis begins there.
 fn passes(walls: &Walls, axis: &Curve, from: &Opposite, is_first: bool) -> Option<f64> {
     const NEAR: f64 = 1e-6;
     let near = NEAR * from.half;
     let home = walls.wrapped(axis.point(0.5)).1;
     let begin = walls.wrapped(from.center).0;
-    // A stretch is no longer than a period: an image next to its middle is on it, if any.
+    // A section is no longer than a period: if an image lies on it, it is the one nearest to its midpoint.
     let steps = |i: usize| if walls.periodic[i] { -1..=1 } else { 0..=0 };
     let images = steps(0).flat_map(|dx| steps(1).map(move |dy| [home[0] + dx, home[1] + dy]));
     images
         .map(|shift| begin + walls.offset(shift))
         .filter_map(|x| {
             let closest = axis.project(x);
-            // The point at which the axis begins is also the end of a circle.
+            // The starting point of a closed axis is also its end.
             let u = if is_first && closest.u * axis.length() <= near && axis.is_closed() { 1.0 } else { closest.u };
             let counts = (closest.point - x).norm() <= near && (!is_first || u * axis.length() > near);
             counts.then_some(u)
@@ -220,7 +220,7 @@ fn axis(walls: &Walls, at: &Opposite, t: Vec2, along: &[Along; 2]) -> Option<Cur
     });
     let Some(center) = center else {
         let length = (0..2).map(|i| remaining(walls, &at.contacts[i], &along[i], t)).fold(f64::INFINITY, f64::min);
-        // Between two corners `t` is off the direction of the walls by rounding, which a long passage multiplies.
+        // Between two corners `t` deviates from the direction of the walls by rounding, which a long passage amplifies.
         let tangent = |along: &Along| match along {
             Along::Piece(link) => walls.curve(link.wall, link.shift).tangent(0.5),
             Along::Vertex(..) => t,
@@ -237,7 +237,7 @@ fn axis(walls: &Walls, at: &Opposite, t: Vec2, along: &[Along; 2]) -> Option<Cur
     (angle > 0.0).then_some(Curve::Arc { center, radius: spoke.norm(), start, sweep })
 }
 
-/// How far a wall goes on from a contact along `t`: a length in m on a segment, else an angle in rad.
+/// Remaining extent of a wall from a contact along `t`: a length in m on a segment, else an angle in rad.
 fn remaining(walls: &Walls, contact: &Contact, along: &Along, t: Vec2) -> f64 {
     match *along {
         Along::Vertex(_, angle) => angle,
@@ -257,22 +257,22 @@ fn remaining(walls: &Walls, contact: &Contact, along: &Along, t: Vec2) -> f64 {
     }
 }
 
-/// The first place on an axis behind which a third wall is nearer than the two that the passage runs along, at about `half` (m), as a parameter; 1 and
-/// `false` where there is none.
+/// The first point on an axis beyond which a third wall is nearer than the two walls of the passage, at about `half` (m), as a parameter; 1 and `false` if
+/// there is none.
 fn first_hit(walls: &Walls, axis: &Curve, along: &[Along; 2], half: f64) -> (f64, bool) {
-    // Walls that run level within rounding of directions come nearer over a long passage, which is no end of it.
+    // Walls that are parallel within rounding of directions converge over a long passage, which does not end it.
     let of_both =
         |x: Vec2| along.iter().map(|along| (contact(walls, along, x).point - x).norm()).fold(f64::INFINITY, f64::min);
     let middle = axis.point(0.5);
     let reach = 0.5 * axis.length() + half + slack(walls, half);
-    let mut places = vec![0.0, 1.0];
+    let mut parameters = vec![0.0, 1.0];
     for (wall, shift) in walls.within(middle, reach) {
         for offset in offsets(&walls.curve(wall, shift), half) {
-            meeting_places(axis, &offset, walls.tolerance, &mut places);
+            meeting_places(axis, &offset, walls.tolerance, &mut parameters);
         }
     }
-    places.sort_by(f64::total_cmp);
-    for pair in places.windows(2) {
+    parameters.sort_by(f64::total_cmp);
+    for pair in parameters.windows(2) {
         let shortest = 10.0 * walls.tolerance / axis.length();
         let x = axis.point(0.5 * (pair[0] + pair[1]));
         if pair[1] - pair[0] > shortest && walls.distance(x) < half.min(of_both(x)) - 2.0 * slack(walls, half) {
@@ -297,23 +297,23 @@ fn offsets(curve: &Curve, distance: f64) -> Vec<Curve> {
     found
 }
 
-/// The first parameter up to `until` at which an axis leaves the domain, along the axes that are not periodic.
+/// The first parameter up to `until` at which an axis leaves the domain along a non-periodic direction.
 fn leaving(walls: &Walls, axis: &Curve, until: f64) -> Option<f64> {
     let domain = walls.domain;
     let far = domain.grown(domain.size().norm());
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     for i in (0..2).filter(|&i| !walls.periodic[i]) {
         for level in [domain.min[i], domain.max[i]] {
             let (mut a, mut b) = (far.min, far.max);
             (a[i], b[i]) = (level, level);
-            meeting_places(axis, &Curve::Segment { a, b }, walls.tolerance, &mut places);
+            meeting_places(axis, &Curve::Segment { a, b }, walls.tolerance, &mut parameters);
         }
     }
-    places.retain(|&u| u <= until);
-    places.sort_by(f64::total_cmp);
-    places.push(until);
+    parameters.retain(|&u| u <= until);
+    parameters.sort_by(f64::total_cmp);
+    parameters.push(until);
     let mut from = 0.0;
-    for &to in &places {
+    for &to in &parameters {
         let x = axis.point(0.5 * (from + to));
         if to > from && !walls.is_within(x) {
             return Some(from);

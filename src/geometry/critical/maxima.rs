@@ -1,7 +1,7 @@
 //! Local maxima of the wall distance between three walls: Newton's method on equal distances.
 //!
-//! Where the converged circle holds a nearer wall, that wall takes the place of the one beside it and the iteration goes on, so that the
-//! first guess need not name the right pieces. A maximum lies within the triangle of three of its wall points.
+//! If a nearer wall intrudes into the converged circle, it replaces the one beside it and the iteration continues, so that the initial guess need not contain
+//! the right pieces. A maximum lies within the triangle of three of its wall points.
 
 use crate::geometry::critical::candidates::Triple;
 use crate::geometry::critical::opposite::{SAME_DIRECTION, TIE, slack};
@@ -13,7 +13,7 @@ use crate::math::Vec2;
 /// A local maximum of the wall distance.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Maximum {
-    /// Its place in m, within the domain.
+    /// Its position in m, within the domain.
     pub(crate) center: Vec2,
     /// The wall distance there in m.
     pub(crate) radius: f64,
@@ -21,8 +21,8 @@ pub(crate) struct Maximum {
     pub(crate) contacts: Vec<Contact>,
 }
 
-/// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones: the center is within [`TIE`] of their middle. Straight
-/// walls have none unless they are parallel.
+/// If the gap of three wall points exceeds a half circle minus this angle (rad), two of them are opposite: the center is within [`TIE`] of their midpoint.
+/// Straight walls have no such maxima unless they are parallel.
 const HALF_CIRCLE: f64 = 2.0 * TIE;
 
 const NEWTON_STEPS: usize = 40;
@@ -43,7 +43,7 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
         if distance >= radius - slack(walls, radius) {
             return found(walls, x, radius, &nearest);
         }
-        // The nearer wall takes the place of the one beside it.
+        // The nearer wall replaces the one beside it.
         let v = nearest.point - x;
         let beside = |i: &usize| -(closest_points[*i] - x).dot(&v) / (closest_points[*i] - x).norm();
         let replaced = (0..3).min_by(|i, j| beside(i).total_cmp(&beside(j)))?;
@@ -55,7 +55,7 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     None
 }
 
-/// The maximum at a place that no wall is nearer to than `radius` (m), if it is one.
+/// The maximum at a point whose wall distance is `radius` (m), if it is one.
 fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maximum> {
     if !walls.is_seen(nearest, x - nearest.point) {
         return None;
@@ -73,7 +73,7 @@ fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maxim
 pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
     let y = walls.wrapped(center).0;
     let mut contacts = walls.contacts(y, radius * (1.0 + TIE) + slack(walls, radius));
-    // Points of the same place are one.
+    // Coincident points are merged.
     let mut kept: Vec<Contact> = Vec::new();
     contacts.retain(|contact| {
         let is_new = kept.iter().all(|other| (other.point - contact.point).norm() > 1e-6 * radius);
@@ -85,7 +85,7 @@ pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
     Maximum { center: y, radius, contacts: kept }
 }
 
-/// Whether directions, each with whether it leads to within a segment, leave no half circle free.
+/// Whether directions, each with a flag for the interior of a segment, leave no half circle free.
 fn surrounded(directions: &[(Vec2, bool)]) -> bool {
     let mut angles: Vec<(f64, bool)> =
         directions.iter().map(|(v, is_straight)| (v.y.atan2(v.x), *is_straight)).collect();
@@ -97,7 +97,7 @@ fn surrounded(directions: &[(Vec2, bool)]) -> bool {
     })
 }
 
-/// The point near `x` that is equally far from three walls, and the nearest points there.
+/// The point near `x` that is equidistant from three walls, and the nearest points there.
 fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(Vec2, [Vec2; 3])> {
     let farthest = walls.domain.size().norm();
     let begin = x;
@@ -116,7 +116,7 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
         if !length.is_finite() {
             return None;
         }
-        // A step beyond the nearest wall says nothing.
+        // A step beyond the nearest wall is meaningless.
         let longest = 0.5 * d[0].min(d[1]).min(d[2]);
         x += if length > longest { step * (longest / length) } else { step };
         if (x - begin).norm() > farthest {
@@ -133,7 +133,7 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
     (spread <= slack(walls, d[0])).then_some((x, closest_points))
 }
 
-/// The nearest point of a piece or of the one before it, which shares its first vertex, unless that is one of the three itself.
+/// The nearest point of a piece or of the previous one, which shares its first vertex, unless that is one of the three itself.
 fn closest(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
     let curve = walls.curve(wall, shift);
     let closest = curve.project(x);
@@ -147,7 +147,7 @@ fn closest(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift
     }
 }
 
-/// The center of a concave arc, where its points leave no half circle free.
+/// The center of a concave arc, if its points leave no half circle free.
 pub(crate) fn center_of_arc(walls: &Walls, wall: usize) -> Option<Maximum> {
     let Curve::Arc { center, radius, sweep, .. } = walls.walls[wall].curve else { return None };
     if sweep > 0.0 || !walls.is_within(center) || walls.distance(center) < radius - slack(walls, radius) {
@@ -156,7 +156,7 @@ pub(crate) fn center_of_arc(walls: &Walls, wall: usize) -> Option<Maximum> {
     let contacts = walls.contacts(center, radius + slack(walls, radius));
     let mut directions: Vec<(Vec2, bool)> = contacts.iter().map(|contact| (contact.point - center, false)).collect();
     for contact in &contacts {
-        // All points of concentric arcs are nearest.
+        // For concentric arcs all points are nearest.
         let curve = walls.curve(contact.wall, contact.shift);
         if let Curve::Arc { center: other, .. } = curve
             && (other - center).norm() <= slack(walls, radius)

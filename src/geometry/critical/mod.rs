@@ -1,8 +1,8 @@
 //! Critical points of the wall distance: its saddles, which are throats, and its maxima, which are pores.
 //!
-//! A point of the pore space is critical where it lies in the convex hull of its nearest wall points [Lieutier2004]. `walls` holds the walls
-//! as chains, `candidates` finds which of them face each other, `opposite` places between two walls, `slope` tells saddles from maxima,
-//! `level` joins stretches along which the distance stays the same, `maxima` finds places between three walls.
+//! A point of the pore space is critical if it lies in the convex hull of its nearest wall points [Lieutier2004]. `walls` holds the walls as chains,
+//! `candidates` finds facing ones, `opposite` the points between two walls, `slope` distinguishes saddles from maxima, `level` joins sections of constant
+//! distance, `maxima` finds points between three walls.
 
 pub(crate) mod candidates;
 mod joints;
@@ -22,7 +22,7 @@ use crate::geometry::critical::slope::is_opening;
 use crate::geometry::critical::walls::{Contact, Walls};
 use crate::math::Vec2;
 
-/// Critical places nearer than this share of their distance from the walls are one.
+/// Critical points nearer than this fraction of their wall distance coincide.
 const SAME_PLACE: f64 = 4.0 * TIE;
 
 /// The critical points within the domain.
@@ -69,7 +69,7 @@ fn between_two(walls: &Walls, pairs: &[Pair]) -> (Vec<Opposite>, Vec<Maximum>) {
     (one_of_each(saddles, |at| (walls.folded(at.center), at.half)), maxima)
 }
 
-/// The same with its middle in the half-open cell.
+/// The same with its midpoint in the half-open cell.
 fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
     let (center, shift) = walls.wrapped(at.center);
     let back = walls.offset(shift);
@@ -77,7 +77,7 @@ fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
     Opposite { contacts: at.contacts.map(moved), center, half: at.half }
 }
 
-/// The things whose centers differ, sorted by them; of equal ones the largest.
+/// The items with distinct centers, sorted by these; of coincident ones the largest.
 fn one_of_each<T>(mut found: Vec<T>, place: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
     found.sort_by(|a, b| {
         let (p, q) = (place(a), place(b));
@@ -104,12 +104,12 @@ mod tests {
     use crate::geometry::critical::walls::Sides;
     use crate::geometry::spec::{Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 
-    /// Numbers that look random, the same on every machine.
+    /// Reproducible pseudorandom numbers.
     fn noise(k: usize) -> f64 {
         (f64::from(k as u32) * 0.754_877_666_246_69 + 0.5 * (f64::from(k as u32) * 0.569_840_290_998).fract()).fract()
     }
 
-    /// All pairs of pieces and images, whether samples see each other or not.
+    /// All pairs of pieces and images, independent of the samples.
     fn all_pairs(walls: &Walls) -> Vec<Pair> {
         let mut pairs = Vec::new();
         let images = |i: usize| if walls.periodic[i] { -1..=1 } else { 0..=0 };

@@ -1,22 +1,22 @@
-//! Places between two opposite wall points: every saddle of the wall distance, and maxima between two walls.
+//! Points between two opposite wall points: every saddle of the wall distance, and maxima between two walls.
 //!
-//! Two points are opposite where the segment between them is normal to both walls, or lies in the cone of normals of a vertex, and nothing
-//! but pore is in the disc whose diameter they span. For pieces in closed form: the line through two centers, through a center normal to a
-//! segment, from a vertex, between two vertices.
+//! Two points are opposite if the segment between them is normal to both walls, or lies in the cone of normals of a vertex, and the disc whose diameter they
+//! span contains only pore. In closed form for all pieces: the line through two centers, through a center normal to a segment, from a vertex, between two
+//! vertices.
 
 use crate::geometry::critical::candidates::Pair;
 use crate::geometry::critical::walls::{Contact, Walls};
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
-/// Differences of directions, in rad, that are rounding: pieces of imported curves join within it.
+/// Rounding of directions, in rad: pieces of imported curves join within it.
 pub(crate) const SAME_DIRECTION: f64 = 1e-7;
 
-/// Differences of distances, over the distance, that are rounding.
+/// Rounding of distances, over the distance.
 pub(crate) const SAME_DISTANCE: f64 = 1e-9;
 
-/// Share of a distance within which further walls count as equally near. Below it a saddle and a maximum beside it are one thing: they differ in
-/// height by no more than its square.
+/// Relative difference within which further walls count as equally near. A saddle and a maximum that differ by less are one point: their distances differ by
+/// no more than its square.
 pub(crate) const TIE: f64 = 1e-6;
 
 /// Two opposite wall points.
@@ -24,14 +24,14 @@ pub(crate) const TIE: f64 = 1e-6;
 pub(crate) struct Opposite {
     /// The points.
     pub(crate) contacts: [Contact; 2],
-    /// Their middle in m.
+    /// Their midpoint in m.
     pub(crate) center: Vec2,
     /// Half their distance in m.
     pub(crate) half: f64,
 }
 
 impl Opposite {
-    /// Two wall points and their middle.
+    /// Two wall points with their midpoint.
     pub(crate) fn between(contacts: [Contact; 2]) -> Self {
         let [p, q] = contacts.map(|contact| contact.point);
         Self { contacts, center: 0.5 * (p + q), half: 0.5 * (q - p).norm() }
@@ -42,19 +42,19 @@ impl Opposite {
         (self.contacts[1].point - self.contacts[0].point) / (2.0 * self.half)
     }
 
-    /// Whether a unit vector from the middle leads to neither of the two points nor to a neighbor of one.
+    /// Whether a unit vector from the midpoint leads to neither of the two points nor to a neighbor of one.
     pub(crate) fn leads_elsewhere(&self, v: Vec2) -> bool {
-        // A wall point within this angle in rad of one of the two is a neighbor of that; it follows from the slack of distances.
+        // A wall point within this angle in rad of one of the two is a neighbor of that; it follows from the rounding of distances.
         let beside = (10.0 * SAME_DISTANCE).sqrt();
         v.dot(&self.across()).abs() < 1.0 - 0.5 * beside * beside
     }
 
-    /// Whether no wall is nearer to the middle than the two points, up to rounding.
+    /// Whether no wall is nearer to the midpoint than the two points, up to rounding.
     pub(crate) fn is_empty(&self, walls: &Walls) -> bool {
         walls.distance(self.center) >= self.half - slack(walls, self.half)
     }
 
-    /// The same where a third wall may be nearer within [`TIE`].
+    /// The same, but a third wall may be nearer within [`TIE`].
     fn is_nearly_empty(&self, walls: &Walls) -> bool {
         let (distance, inner) = (walls.distance(self.center), self.half - slack(walls, self.half));
         distance >= inner
@@ -66,14 +66,14 @@ impl Opposite {
     }
 }
 
-/// What counts as equal to a distance `d` in m.
+/// Tolerance of a distance `d` in m.
 pub(crate) fn slack(walls: &Walls, d: f64) -> f64 {
-    // Positions are rounded to this share of the domain.
+    // Rounding of positions over the tolerance of the geometry.
     const ROUNDING: f64 = 1e-5;
     SAME_DISTANCE * d + ROUNDING * walls.tolerance
 }
 
-/// The opposite points of a pair of pieces; where the pieces run level, those next to the place of the pair.
+/// The opposite points of a pair of pieces; for pieces at a constant distance, those next to the point of the pair.
 pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) -> Vec<Opposite> {
     let curves = [walls.curve(pair.walls[0], [0, 0]), walls.curve(pair.walls[1], pair.shift)];
     let mut found = Vec::new();
@@ -101,13 +101,13 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
             found.push(opposite);
         }
     };
-    if let Some(u) = level_place(&curves[0], &curves[1], pair.between) {
+    if let Some(u) = level_parameters(&curves[0], &curves[1], pair.between) {
         offer(u);
     }
     if !include_ends {
         return found;
     }
-    interior_places(&curves[0], &curves[1], &mut offer);
+    interior_points(&curves[0], &curves[1], &mut offer);
     let ends = |curve: &Curve| if curve.is_closed() { &[][..] } else { &[0.0, 1.0][..] };
     for &u in ends(&curves[0]) {
         for w in normals_through(&curves[1], curves[0].point(u)) {
@@ -123,7 +123,7 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
     found
 }
 
-/// Whether a curve lies behind its point at `u` as seen along the unit vector `v`.
+/// Whether a curve faces the direction of the unit vector `v` at `u`: the curve lies behind that point.
 fn faces(curve: &Curve, u: f64, v: Vec2) -> bool {
     match u {
         _ if curve.is_closed() => curve.normal(u).dot(&v) > 0.0,
@@ -133,8 +133,8 @@ fn faces(curve: &Curve, u: f64, v: Vec2) -> bool {
     }
 }
 
-/// Offers the opposite points within two pieces that are not level.
-fn interior_places(a: &Curve, b: &Curve, offer: &mut impl FnMut([f64; 2])) {
+/// Proposes the opposite points interior to two pieces whose distance is not constant.
+fn interior_points(a: &Curve, b: &Curve, offer: &mut impl FnMut([f64; 2])) {
     let direction = match (*a, *b) {
         (Curve::Segment { .. }, Curve::Segment { .. }) => return,
         (Curve::Segment { a, b }, Curve::Arc { .. }) | (Curve::Arc { .. }, Curve::Segment { a, b }) => {
@@ -154,19 +154,19 @@ fn interior_places(a: &Curve, b: &Curve, offer: &mut impl FnMut([f64; 2])) {
     }
 }
 
-/// Parameters within a piece of its points on the line along `direction` through `anchor`: for an arc the line goes through its center.
+/// Parameters of a piece's points on the line along `direction` through `anchor`: for an arc the line passes through its center.
 fn crossings(curve: &Curve, anchor: Vec2, direction: Vec2) -> [Option<f64>; 2] {
     match *curve {
         Curve::Segment { a, b } => {
             let u = (anchor - a).dot(&(b - a)) / (b - a).norm_squared();
             [(u > 0.0 && u < 1.0).then_some(u), None]
         }
-        Curve::Arc { .. } => [angle_place(curve, direction), angle_place(curve, -direction)],
+        Curve::Arc { .. } => [angle_parameter(curve, direction), angle_parameter(curve, -direction)],
     }
 }
 
-/// The parameter within an arc at which it is seen from its center along `direction`.
-fn angle_place(arc: &Curve, direction: Vec2) -> Option<f64> {
+/// The parameter of an arc's point in the given `direction` from its center.
+fn angle_parameter(arc: &Curve, direction: Vec2) -> Option<f64> {
     let Curve::Arc { start, sweep, .. } = *arc else { return None };
     let turned = ((direction.y.atan2(direction.x) - start) * sweep.signum()).rem_euclid(std::f64::consts::TAU);
     let u = turned / sweep.abs();
@@ -177,21 +177,21 @@ fn angle_place(arc: &Curve, direction: Vec2) -> Option<f64> {
     (u > 0.0 && u < 1.0).then_some(u)
 }
 
-/// Parameters within a piece at which its normal line goes through `x`.
+/// Parameters of a piece at which its normal line passes through `x`.
 fn normals_through(curve: &Curve, x: Vec2) -> impl Iterator<Item = f64> + use<> {
-    let places = match *curve {
+    let parameters = match *curve {
         Curve::Segment { .. } => crossings(curve, x, Vec2::zeros()),
         Curve::Arc { center, .. } => match (x - center).try_normalize(0.0) {
             Some(direction) => crossings(curve, center, direction),
             None => [None, None],
         },
     };
-    places.into_iter().flatten()
+    parameters.into_iter().flatten()
 }
 
-/// Parameters of two pieces between which the wall distance is level along the medial axis, as near as possible to the place `near`.
-fn level_place(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
-    // So far from the ends of the common part, as a share of it.
+/// Parameters of two pieces between which the wall distance is constant along the medial axis, as near as possible to the point `near`.
+fn level_parameters(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
+    // Minimum distance from the ends of the common part, as a fraction of it.
     const WITHIN: f64 = 1e-3;
     match (*a, *b) {
         (Curve::Segment { a: p, b: q }, Curve::Segment { a: r, b: s }) => {
@@ -224,16 +224,16 @@ fn level_place(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
     }
 }
 
-/// The direction from the common center of two arcs within both that is nearest to the one to `near`, as parameters.
+/// The direction from the common center of two arcs, interior to both, that is nearest to the direction of `near`, as parameters.
 fn common_angle(a: &Curve, b: &Curve, center: Vec2, near: Vec2, within: f64) -> Option<[f64; 2]> {
     let both = |x: Vec2| {
         let direction = x - center;
-        Some([angle_place(a, direction)?, angle_place(b, direction)?])
+        Some([angle_parameter(a, direction)?, angle_parameter(b, direction)?])
     };
     if let Some(found) = both(near) {
         return Some(found);
     }
-    // Just within the ends.
+    // Just inside the ends.
     let ends = [a, b].into_iter().flat_map(|curve| [within, 1.0 - within].map(|u| curve.point(u)));
     let angle = |x: Vec2| cross(near - center, x - center).atan2((near - center).dot(&(x - center))).abs();
     ends.filter(|&x| both(x).is_some()).min_by(|x, y| angle(*x).total_cmp(&angle(*y))).and_then(both)

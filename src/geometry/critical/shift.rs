@@ -1,8 +1,8 @@
-//! Periods by which images of a wall are moved, on the torus where the domain is periodic.
+//! Shifts of walls to their periodic images by whole periods.
 
 use crate::math::Vec2;
 
-/// Periods along x and y.
+/// Numbers of periods along x and y.
 pub(crate) type Shift = [i32; 2];
 
 /// The sum of two shifts.
@@ -15,12 +15,12 @@ pub(crate) fn minus(a: Shift, b: Shift) -> Shift {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// The period in which `at` lies, a position over the size of the domain; 0 along axes that are not periodic.
+/// The period that contains `at`, a position over the size of the domain; 0 along non-periodic axes.
 pub(super) fn period_of(at: Vec2, periodic: [bool; 2]) -> Shift {
     [0, 1].map(|i| if periodic[i] { floor_near(at[i]) } else { 0 })
 }
 
-/// The whole part of `x`; a value that is a whole number up to rounding counts as that.
+/// The integer part of `x`; a value that is an integer up to rounding counts as that.
 fn floor_near(x: f64) -> i32 {
     const ROUNDING: f64 = 1e-9;
     let whole = x.round();

@@ -1,44 +1,44 @@
-//! How the wall distance goes on along the medial axis from the middle of two opposite wall points.
+//! Variation of the wall distance along the medial axis from the midpoint of two opposite wall points.
 //!
-//! With the signed curvatures k (convex solid above 0) of the walls towards that side and half their distance h, twice the distance along
-//! the axis has the second derivative k₁ / (1 + k₁ h) + k₂ / (1 + k₂ h), a vertex counting as k → ∞. A third wall point at the same distance
-//! lets it fall at once. Where the sum vanishes the passage is level there.
+//! With the signed curvatures k (convex solid above 0) of the walls towards that side and half their distance h, twice the distance along the axis has the
+//! second derivative k₁ / (1 + k₁ h) + k₂ / (1 + k₂ h), where a vertex counts as k → ∞. A third wall point at the same distance makes it decrease
+//! immediately. If the sum vanishes the passage is level.
 
 use crate::geometry::critical::opposite::{Opposite, SAME_DIRECTION, SAME_DISTANCE, TIE, slack};
 use crate::geometry::critical::walls::{Contact, Link, Sides, Walls};
 use crate::geometry::curve::Curve;
 use crate::math::{Vec2, perpendicular};
 
-/// What a level passage runs along on one side.
+/// The wall of a level passage on one side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Along {
     /// A piece.
     Piece(Link),
-    /// A vertex, around which the passage turns by at most this angle in rad.
+    /// A vertex, about which the passage rotates by at most this angle in rad.
     Vertex(Contact, f64),
 }
 
-/// How the wall distance goes on.
+/// Variation of the wall distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Slope {
-    /// It rises.
+    /// It increases.
     Rises,
-    /// It falls.
+    /// It decreases.
     Falls,
     /// The domain ends there.
     Open,
-    /// It stays, along these two.
+    /// It is constant, along these two walls.
     Level([Along; 2]),
 }
 
-/// How the wall distance goes on from between opposite points along the unit vector `t`, which is normal to the line between them.
+/// The variation of the wall distance from the midpoint of opposite points along the unit vector `t`, normal to the line between them.
 pub(crate) fn slope(walls: &Walls, at: &Opposite, t: Vec2) -> Slope {
     if leaves(walls, at.center, t) {
         return Slope::Open;
     }
     let across = at.across();
     let slack = slack(walls, at.half);
-    // A wall ahead is met after the way that its distance exceeds by, over the cosine of its direction.
+    // A wall ahead is reached after its excess distance over the cosine of its direction.
     let blocks = |contact: &Contact| {
         let v = contact.point - at.center;
         let distance = v.norm();
@@ -56,7 +56,7 @@ pub(crate) fn slope(walls: &Walls, at: &Opposite, t: Vec2) -> Slope {
     Slope::Level([first, second])
 }
 
-/// What a wall runs along, and its share k h / (1 + k h) of the second derivative; none where it turns towards the pore.
+/// The wall, and its contribution k h / (1 + k h) to the second derivative; `None` if it turns towards the pore.
 fn bend(side: Side, half: f64) -> Option<(Along, f64)> {
     match side {
         Side::Towards => None,
@@ -66,13 +66,13 @@ fn bend(side: Side, half: f64) -> Option<(Along, f64)> {
     }
 }
 
-/// How a wall goes on from a contact.
+/// Continuation of a wall from a contact.
 enum Side {
     /// It turns towards the pore.
     Towards,
     /// It turns away by this angle in rad; the contact stays at the vertex.
     Away(Contact, f64),
-    /// It goes on along a piece of this signed curvature in 1/m.
+    /// It continues along a piece of this signed curvature in 1/m.
     Smooth(Link, f64),
 }
 
@@ -100,7 +100,7 @@ fn side(walls: &Walls, contact: &Contact, normal: Vec2, t: Vec2) -> Side {
     }
 }
 
-/// The signed curvature of a wall in 1/m, above 0 where the solid is convex.
+/// The signed curvature of a wall in 1/m, above 0 if the solid is convex.
 pub(crate) fn curvature(curve: &Curve) -> f64 {
     match *curve {
         Curve::Segment { .. } => 0.0,
@@ -117,7 +117,7 @@ fn leaves(walls: &Walls, x: Vec2, t: Vec2) -> bool {
     })
 }
 
-/// Whether both points lie on one side at which walls are cut: what is between them is an opening and not a throat.
+/// Whether both points lie on one side at which walls are cut: the gap between them is an opening, not a throat.
 pub(crate) fn is_opening(walls: &Walls, at: &Opposite) -> bool {
     let on = |i: usize, level: f64| at.contacts.iter().all(|c| (c.point[i] - level).abs() <= 10.0 * walls.tolerance);
     walls.sides == Sides::Cut

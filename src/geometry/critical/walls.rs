@@ -1,8 +1,8 @@
-//! The walls of the pore space as chains of pieces that know their neighbors, on the torus where the domain is periodic.
+//! The walls of the pore space as chains of linked pieces, with periodic images.
 //!
-//! Each wall of the pore space stands here once, as a base piece; [`Shift`]s lead to its periodic images. At sides that are neither walls nor
-//! periodic the walls may be cut: within the domain the distance to the cut walls is that to walls that go on straight beyond such a side,
-//! since the point nearest to such a continuation is the cut itself.
+//! Each wall of the pore space is stored once, as a base piece; [`Shift`]s lead to its periodic images. At sides that are neither walls nor periodic the
+//! walls may be cut: within the domain the distance to the cut walls equals that to walls that continue straight beyond such a side, since the nearest point
+//! of such a continuation is the cut itself.
 
 use crate::geometry::boundary::{Boundary, Piece};
 use crate::geometry::critical::joints::{clipped, turn};
@@ -11,7 +11,7 @@ use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
 use crate::math::{Bounds, Vec2, perpendicular};
 
-/// Ends within this many tolerances are joined: they come from intersections computed once on each curve.
+/// Ends within this many tolerances are joined: intersections are computed once on each curve.
 const JOINED: f64 = 10.0;
 
 /// The piece that begins where another ends.
@@ -26,15 +26,15 @@ pub(crate) struct Link {
 /// A piece of wall with its neighbors along the wall.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wall {
-    /// Where it runs, solid on the left.
+    /// Its curve, solid on the left.
     pub(crate) curve: Curve,
-    /// Index of the written shape.
+    /// Index of the specified shape.
     pub(crate) shape: u32,
     /// The piece that begins where this one ends.
     pub(crate) next: Option<Link>,
     /// The piece that ends where this one begins.
     pub(crate) before: Option<Link>,
-    /// The angle in rad by which the wall turns where this piece begins, above 0 where the solid is convex; half a circle in a cusp.
+    /// The angle in rad by which the wall rotates at the start of this piece, above 0 if the solid is convex; ±π at a cusp.
     pub(crate) turn: f64,
 }
 
@@ -51,12 +51,12 @@ pub(crate) struct Contact {
     pub(crate) point: Vec2,
 }
 
-/// What becomes of walls that reach out of the domain.
+/// Treatment of walls that extend beyond the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sides {
     /// They are cut at each side that is neither wall nor periodic.
     Cut,
-    /// They go on beyond it.
+    /// They continue beyond it.
     Beyond,
 }
 
@@ -64,9 +64,9 @@ pub(crate) enum Sides {
 pub(crate) struct Walls {
     /// The domain.
     pub(crate) domain: Bounds,
-    /// Whether it is joined along x and y.
+    /// Whether it is periodic along x and y.
     pub(crate) periodic: [bool; 2],
-    /// What was done at sides that are neither walls nor periodic.
+    /// Treatment of walls at sides that are neither walls nor periodic.
     pub(crate) sides: Sides,
     /// Lengths in m below this count as zero.
     pub(crate) tolerance: f64,
@@ -84,12 +84,12 @@ impl Walls {
         let reach = if sides == Sides::Cut { 0.0 } else { domain.size().norm() };
         let mut frame = domain.grown(reach);
         for i in (0..2).filter(|&i| periodic[i]) {
-            // What goes on along a periodic axis is its own image.
+            // What continues along a periodic axis is its own image.
             (frame.min[i], frame.max[i]) = (domain.min[i], domain.max[i]);
         }
         let mut pieces = Vec::new();
         for (k, piece) in geometry.boundary.pieces.iter().enumerate() {
-            // A circle that another wall touches begins there, and has ends.
+            // A circle that touches another wall starts at the contact point, and has ends.
             let touches = |x: Vec2| geometry.boundary.within(x, JOINED * tolerance).any(|near| near.piece != k);
             let parts = if piece.curve.is_closed() && touches(piece.curve.point(0.0)) {
                 vec![piece.curve.part(0.0, 0.5), piece.curve.part(0.5, 1.0)]
@@ -104,7 +104,7 @@ impl Walls {
             let at = (curve.point(0.5) - domain.min).component_div(&domain.size());
             period_of(at, periodic)
         };
-        // Each wall has one image whose middle lies in the half-open cell.
+        // Of each wall the image whose midpoint lies in the half-open cell.
         let walls: Vec<Wall> = pieces
             .iter()
             .filter(|piece| cell(&piece.curve) == [0, 0])
@@ -119,7 +119,7 @@ impl Walls {
             images: Vec::new(),
             index: Boundary::new(Vec::new(), 0.0),
         };
-        // Along a periodic axis the nearest point of a wall is never farther than half a period.
+        // Along a periodic axis the nearest point of a wall is at most half a period away.
         const MORE: f64 = 0.51;
         all.images = all.images_within(domain.size() * MORE);
         let image =
@@ -161,16 +161,16 @@ impl Walls {
         if shift == [0, 0] { curve } else { curve.shifted(self.offset(shift)) }
     }
 
-    /// `x` brought into the half-open cell, and the shift that leads back.
+    /// `x` wrapped into the half-open cell, and the shift that leads back.
     pub(crate) fn wrapped(&self, x: Vec2) -> (Vec2, Shift) {
         let at = (x - self.domain.min).component_div(&self.domain.size());
         let shift = period_of(at, self.periodic);
         (x - self.offset(shift), shift)
     }
 
-    /// `x` in the cell; along periodic axes what is next to the far side stands next to the near one, so that images of one place are neighbors.
+    /// `x` in the cell; along periodic axes points next to the upper side are moved next to the lower one, so that images of one point are neighbors.
     pub(crate) fn folded(&self, x: Vec2) -> Vec2 {
-        // Share of a period: more than what places differ by that are one.
+        // Fraction of a period: more than the difference between coincident points.
         const NEXT: f64 = 1e-5;
         let (mut y, size) = (self.wrapped(x).0, self.domain.size());
         for i in (0..2).filter(|&i| self.periodic[i]) {
@@ -181,7 +181,7 @@ impl Walls {
         y
     }
 
-    /// Whether `x` lies in the domain, its sides included.
+    /// Whether `x` lies in the domain, including its sides.
     pub(crate) fn is_within(&self, x: Vec2) -> bool {
         self.domain.grown(self.tolerance).contains(self.wrapped(x).0)
     }
@@ -194,13 +194,13 @@ impl Walls {
         Some(((contact.point - x).norm(), contact))
     }
 
-    /// The distance of the nearest wall from `x` in m; infinite where there is none.
+    /// The distance of the nearest wall from `x` in m; infinite without walls.
     pub(crate) fn distance(&self, x: Vec2) -> f64 {
         let y = self.wrapped(x).0;
         self.index.nearest(y).map_or(f64::INFINITY, |found| (found.closest.point - y).norm())
     }
 
-    /// The nearest points of all pieces within `reach` (m) of `x`, in the order of their pieces; each vertex once.
+    /// The nearest points of all pieces within `reach` (m) of `x`, in the order of the pieces; each vertex once.
     pub(crate) fn contacts(&self, x: Vec2, reach: f64) -> Vec<Contact> {
         let (y, shift) = self.wrapped(x);
         let within = self.index.within(y, reach);
@@ -224,7 +224,7 @@ impl Walls {
         found
     }
 
-    /// Whether a piece within `reach` (m) of `x` counts, told by its image and the point of it nearest to `x`.
+    /// Whether `counts` holds for a piece within `reach` (m) of `x`, given its image and its point nearest to `x`.
     pub(crate) fn any_within(&self, x: Vec2, reach: f64, counts: impl Fn((usize, Shift), Vec2) -> bool) -> bool {
         let (y, shift) = self.wrapped(x);
         let back = self.offset(shift);
@@ -234,13 +234,13 @@ impl Walls {
         })
     }
 
-    /// A bound in m of the wall distance within a periodic domain, at most half a period.
+    /// An upper bound in m of the wall distance within a periodic domain, at most half a period.
     pub(crate) fn largest_distance(&self) -> f64 {
         let size = self.domain.size();
         if self.periodic == [false; 2] {
             return 0.0;
         }
-        // The distance changes by at most one per length: some nodes per piece bound it closely.
+        // The gradient of the distance is at most 1: a few nodes per piece give a tight bound.
         let step = (self.domain.area() / (1.0 + 0.5 * self.walls.len() as f64)).sqrt();
         let counts = size.map(|side| (side / step).ceil().clamp(4.0, 4096.0));
         let cell = size.component_div(&counts);
@@ -254,9 +254,9 @@ impl Walls {
         (largest + 0.5 * cell.norm()).min(0.51 * size.max())
     }
 
-    /// The parameter of an end where a parameter is that up to rounding.
+    /// A parameter rounded to that of an end if it is that up to rounding.
     pub(crate) fn snapped(&self, curve: &Curve, u: f64) -> f64 {
-        // Positions are rounded to about this share of the tolerance.
+        // Rounding of positions over the tolerance.
         const ROUNDING: f64 = 1e-3;
         let near = ROUNDING * self.tolerance / curve.length();
         match u {
@@ -273,7 +273,7 @@ impl Walls {
         self.at_vertex(Contact { wall, shift: plus(own, shift), u, point: point + self.offset(shift) })
     }
 
-    /// The same point, named by the piece that leaves it where it is a vertex.
+    /// The same point; a vertex is assigned to the piece that starts there.
     pub(crate) fn at_vertex(&self, contact: Contact) -> Contact {
         match self.walls[contact.wall].next {
             Some(next) if contact.u == 1.0 => {
@@ -283,7 +283,7 @@ impl Walls {
         }
     }
 
-    /// The pieces that end and begin at a contact: the same one within a piece, none where a wall is cut.
+    /// The pieces that end and start at a contact: the same one within a piece, `None` where a wall is cut.
     pub(crate) fn around(&self, contact: &Contact) -> [Option<Link>; 2] {
         let here = Link { wall: contact.wall, shift: contact.shift };
         let along = |link: Link| Link { wall: link.wall, shift: plus(contact.shift, link.shift) };
@@ -297,7 +297,7 @@ impl Walls {
         }
     }
 
-    /// The tangents with which the wall arrives at a vertex and leaves it; none within a piece. Beyond a cut the wall goes straight on.
+    /// The tangents of the wall before and after a vertex; `None` within a piece. Beyond a cut the wall continues straight.
     pub(crate) fn tangents(&self, contact: &Contact) -> Option<[Vec2; 2]> {
         let [before, after] = self.around(contact);
         let arriving = before.map(|link| self.curve(link.wall, link.shift).tangent(1.0));
@@ -312,9 +312,9 @@ impl Walls {
         }
     }
 
-    /// Whether a place that is seen from a wall point along `v` lies on its pore side: along the normal, or within the cone of a vertex.
+    /// Whether a point in the direction `v` from a wall point lies on its pore side: along the normal, or within the cone of a vertex.
     pub(crate) fn is_seen(&self, contact: &Contact, v: Vec2) -> bool {
-        // As much may a direction leave the cone by rounding.
+        // Tolerance for directions outside the cone by rounding.
         let slack = 1e-6 * v.norm();
         match self.tangents(contact) {
             None => self.curve(contact.wall, contact.shift).normal(contact.u).dot(&v) > 0.0,
@@ -325,7 +325,7 @@ impl Walls {
                 } else {
                     cross(arriving, leaving).atan2(arriving.dot(&leaving))
                 };
-                // A corner of the pore is seen from nowhere; the normal lies on the right of the tangent.
+                // A reentrant corner faces no point; the normal lies on the right of the tangent.
                 turn * v.norm() > -slack
                     && arriving.dot(&v) >= -slack
                     && leaving.dot(&v) <= slack
@@ -334,7 +334,7 @@ impl Walls {
         }
     }
 
-    /// The inward normal of the side of the domain that is nearest to `x`, among those that are not periodic.
+    /// The inward normal of the nearest non-periodic side of the domain.
     pub(crate) fn inward(&self, x: Vec2) -> Vec2 {
         let mut nearest = (f64::INFINITY, Vec2::zeros());
         for i in (0..2).filter(|&i| !self.periodic[i]) {
@@ -349,8 +349,7 @@ impl Walls {
         nearest.1
     }
 
-    /// Joins the ends of pieces. Where more than two pieces meet, as where solids touch, the wall goes on along the pore: it takes the
-    /// sharpest turn to the right.
+    /// Joins the ends of pieces. Where more than two pieces meet, as where solids touch, the wall follows the pore: it takes the sharpest turn to the right.
     fn join(&mut self) {
         let near = JOINED * self.tolerance;
         for k in 0..self.walls.len() {

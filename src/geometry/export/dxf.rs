@@ -1,5 +1,5 @@
-//! DXF of AutoCAD 2000 in mm (`$INSUNITS` 4): discs as CIRCLE, all else as closed LWPOLYLINE with bulges, holes as rings of their own.
-//! A rectangle on the layer `domain` is the domain. Shapes that overlap are united: outlines within others are holes where they are read.
+//! DXF of AutoCAD 2000 in mm (`$INSUNITS` 4): discs as CIRCLE, all others as closed LWPOLYLINE with bulges, holes as separate rings. A rectangle on the layer
+//! `domain` is the domain. Overlapping shapes are united: nested outlines are holes when read.
 
 use dxf::entities::{Circle, Entity, EntityType, LwPolyline};
 use dxf::enums::{AcadVersion, Units};
@@ -14,7 +14,7 @@ use crate::geometry::import::nest::regions;
 use crate::geometry::tree::Tree;
 use crate::math::Bounds;
 
-/// Lengths below this share of the domain count as none where outlines meet.
+/// Lengths below this fraction of the domain count as zero at intersections.
 const TOLERANCE: f64 = 1e-9;
 /// Millimeters per meter.
 const MM: f64 = 1e3;
@@ -49,7 +49,7 @@ pub(super) fn dxf(sheet: &Sheet) -> Result<Vec<u8>, ExportError> {
     Ok(bytes)
 }
 
-/// The outlines, those united whose boxes overlap.
+/// The outlines; those with overlapping boxes are united.
 fn apart(sheet: &Sheet) -> Vec<Outline> {
     let tolerance = TOLERANCE * sheet.frame.size().max();
     let solids: Vec<Vec<Solid>> = sheet

@@ -1,25 +1,25 @@
-//! Errors of drawings for other programs.
+//! Errors of exported drawings.
 
 /// Why a drawing cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The name's ending is none of ours.
+    /// Unknown file extension.
     #[error(
         "`.{ending}` names no format that can be written; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtu"
     )]
     Ending {
-        /// The ending.
+        /// The extension.
         ending: String,
     },
-    /// A list holds discs only.
+    /// A list can hold discs only.
     #[error("{others} of {all} shapes are no discs, and a list holds discs only; write .toml, .svg or .dxf")]
     NoDisc {
-        /// Shapes that are none.
+        /// Number of other shapes.
         others: usize,
-        /// All shapes.
+        /// Number of all shapes.
         all: usize,
     },
-    /// The mask would be too large, or has no pixel.
+    /// The mask would be too large, or have no pixel.
     #[error(
         "a pixel of {pixel:e} m makes {width:.0} x {height:.0} pixels; a mask has 4 to 8192 a side: choose another --mask-pixel"
     )]

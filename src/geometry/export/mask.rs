@@ -1,7 +1,7 @@
-//! PNG masks: the exact share of solid in each pixel, black where it is 1.
+//! PNG masks: the exact fraction of solid in each pixel, black for 1.
 //!
-//! Each edge of a polygon adds, along every row that it crosses, the area between itself and the right side of the image; the sum from
-//! left to right is the share. Arcs are drawn by chords within 1e-3 of a pixel. Shapes that overlap within a pixel count at most once.
+//! Each edge of a polygon adds, in every row that it crosses, the area between itself and the right side of the image; the cumulative sum from left to right
+//! is the fraction. Arcs are approximated by chords within 1e-3 of a pixel. Overlapping shapes within a pixel count at most once.
 
 use std::io::Cursor;
 
@@ -12,7 +12,7 @@ use super::sheet::{Sheet, rings_of, sampled};
 use crate::geometry::import::drawing::Ring;
 use crate::math::{Bounds, Vec2};
 
-/// Chords leave arcs by this part of a pixel.
+/// Maximum distance of chords from arcs over the pixel size.
 const CHORD: f64 = 1e-3;
 /// Most pixels along a side.
 const MOST: f64 = 8192.0;
@@ -38,7 +38,7 @@ pub(super) fn png(sheet: &Sheet, pixel: f64) -> Result<Vec<u8>, ExportError> {
     Ok(bytes.into_inner())
 }
 
-/// Adds the share of the pixels that rings cover together.
+/// Adds the fraction of the pixels covered by rings together.
 fn cover(rings: &[Ring], frame: &Bounds, pixel: f64, [width, height]: [usize; 2], share: &mut [f32]) {
     let points: Vec<Vec<Vec2>> = rings
         .iter()
@@ -59,7 +59,7 @@ fn cover(rings: &[Ring], frame: &Bounds, pixel: f64, [width, height]: [usize; 2]
         return;
     }
     let columns = right - left;
-    // One column more takes what lies to the right of the last one.
+    // One more column takes contributions to the right of the last one.
     let mut sums = vec![0.0_f64; (columns + 1) * (top - bottom)];
     for ring in &points {
         for (k, &p) in ring.iter().enumerate() {
@@ -76,7 +76,7 @@ fn cover(rings: &[Ring], frame: &Bounds, pixel: f64, [width, height]: [usize; 2]
         let mut sum = 0.0;
         for (column, step) in line[..columns].iter().enumerate() {
             sum += step;
-            // Counter-clockwise rings run up on their right: the sum from the left is below 0 within.
+            // Counter-clockwise rings run upwards on their right side: the cumulative sum is negative inside.
             share[(bottom + row) * width + left + column] += (-sum).abs() as f32;
         }
     }
@@ -104,12 +104,12 @@ fn edge(p: Vec2, q: Vec2, columns: usize, sums: &mut [f64]) {
     }
 }
 
-/// The part of an edge within one row, from `x0` to `x1` and `rise` high: the pixels it crosses take their share, those to its right all.
+/// The part of an edge within one row, from `x0` to `x1` and `rise` high: the pixels that it crosses get their fraction, those to the right all of it.
 fn span(x0: f64, x1: f64, rise: f64, line: &mut [f64]) {
     let (x0, x1) = (x0.min(x1), x0.max(x1));
     let last = line.len() - 1;
     let (first, end) = ((x0.floor() as usize).min(last), (x1.floor() as usize).min(last));
-    // The share of the rise times the width to the right of the edge, summed up to a pixel's right side.
+    // The rise times the width to the right of the edge, summed up to a pixel's right side.
     let covered = |x: f64| {
         if x1 > x0 {
             let t = (x - x0).clamp(0.0, x1 - x0);

@@ -1,9 +1,9 @@
-//! Drawings for other programs: the solid of a geometry as SVG, DXF, well-known text, GeoJSON, a list of discs, a TOML shape file or a
-//! PNG mask, chosen by the ending of the name.
+//! Drawings for other programs: the solid of a geometry as SVG, DXF, well-known text, GeoJSON, a list of discs, a TOML shape file or a PNG mask, selected by
+//! the file extension.
 //!
-//! Discs stay circles and arcs stay arcs where the format knows them. Where it does not (well-known text, GeoJSON) vertices lie on the
-//! arc, so that chords leave it by less than 5e-4 of its radius. Shapes are written whole, also where they cross the sides of the
-//! domain; endless ones are cut half a domain outside of it. Where the shapes are the pore, the solid within the domain is written.
+//! Discs stay circles and arcs stay arcs in formats that support them. In the others (well-known text, GeoJSON) vertices lie on the arc, with chords within
+//! 5e-4 of its radius. Shapes are written completely, also if they cross the sides of the domain; infinite ones are cut half a domain outside it. If the
+//! shapes are the pore, the solid within the domain is written.
 
 mod dxf;
 mod error;
@@ -38,7 +38,7 @@ pub enum Format {
     Png,
 }
 
-/// Endings and their formats.
+/// File extensions and their formats.
 const ENDINGS: [(&str, Format); 9] = [
     ("svg", Format::Svg),
     ("dxf", Format::Dxf),
@@ -60,15 +60,15 @@ impl Format {
     }
 }
 
-/// Pixels along the longer side of a mask whose pixel size is not given.
+/// Default number of pixels along the longer side of a mask.
 const MASK_PIXELS: f64 = 2048.0;
 
-/// What single formats hold beside the shapes.
+/// Data of particular formats besides the shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Beside {
     /// Side of a pixel of a mask in m.
     pub pixel: Option<f64>,
-    /// Distance of floor and lid in m, which a TOML shape file has a place for.
+    /// Distance between floor and lid in m, which a TOML shape file can hold.
     pub depth: Option<f64>,
 }
 

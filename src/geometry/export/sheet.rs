@@ -1,4 +1,4 @@
-//! The solid as closed outlines of segments and arcs, before a format is chosen.
+//! The solid as closed outlines of segments and arcs, independent of the format.
 
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Piece, chains, clip_body, followers};
@@ -17,7 +17,7 @@ pub(crate) struct Sheet {
     pub(crate) frame: Bounds,
 }
 
-/// Ends of curves closer than this share of the domain's larger side are one.
+/// Ends of curves closer than this fraction of the domain's larger side are joined.
 const JOINED: f64 = 1e-8;
 
 impl Sheet {
@@ -67,7 +67,7 @@ pub(super) fn edges(ring: &Ring) -> impl Iterator<Item = Curve> + '_ {
     crate::geometry::body::bulged_ring(&ring.vertices)
 }
 
-/// The points of a ring, arcs by chords that leave them by at most `error` times their radius.
+/// The points of a ring, with arcs approximated by chords within `error` times their radius.
 pub(super) fn sampled(ring: &Ring, error: f64) -> Vec<Vec2> {
     let step = 2.0 * (1.0 - error).acos();
     let count = |curve: &Curve| match curve {

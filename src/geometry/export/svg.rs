@@ -1,4 +1,4 @@
-//! SVG in mm: circles as `circle`, all else as `path` with arcs; y runs down there, so that it changes its sign.
+//! SVG in mm: circles as `circle`, all others as `path` with arcs; the y axis points down there, so that y changes its sign.
 
 use std::fmt::Write;
 
@@ -41,7 +41,7 @@ fn path(ring: &Ring) -> String {
             Curve::Segment { .. } => write!(text, " L{x} {y}"),
             Curve::Arc { radius, sweep, .. } => {
                 let large = u8::from(sweep.abs() > std::f64::consts::PI);
-                // Positive angles turn clockwise on paper, where y runs down.
+                // With y pointing down, positive angles are clockwise.
                 let turn = u8::from(sweep < 0.0);
                 write!(text, " A{0} {0} 0 {large} {turn} {x} {y}", radius * MM)
             }

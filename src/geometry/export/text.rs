@@ -10,7 +10,7 @@ use crate::geometry::import::drawing::{Outline, Ring};
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::geometry::validate::ring_area;
 
-/// Chords leave arcs by at most this share of the radius: 100 vertices on a circle.
+/// Maximum distance of chords from arcs over the radius: 100 vertices on a circle.
 const CHORD: f64 = 5e-4;
 
 fn domain(sheet: &Sheet) -> String {
@@ -18,7 +18,7 @@ fn domain(sheet: &Sheet) -> String {
     format!("# domain {} {} {} {}\n", min.x, min.y, max.x, max.y)
 }
 
-/// A ring as points, closed by repeating the first, counter-clockwise where it is an outer one.
+/// A ring as points, closed by repeating the first, counter-clockwise if it is an outer one.
 fn closed(ring: &Ring, is_outer: bool) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = sampled(ring, CHORD).into_iter().map(Into::into).collect();
     if (ring_area(&points) > 0.0) != is_outer {
@@ -28,7 +28,7 @@ fn closed(ring: &Ring, is_outer: bool) -> Vec<[f64; 2]> {
     points
 }
 
-/// The polygons of a sheet, outer ring first. A solid of several parts (all around a pore, say) is one polygon for each part.
+/// The polygons of a sheet, outer ring first. A solid with several components (all around a pore, say) gives one polygon each.
 fn polygons(sheet: &Sheet) -> Vec<Vec<Vec<[f64; 2]>>> {
     let mut found = Vec::new();
     for outline in &sheet.outlines {
@@ -56,7 +56,7 @@ fn polygons(sheet: &Sheet) -> Vec<Vec<Vec<[f64; 2]>>> {
     found
 }
 
-/// Whether a ray from `p` leaves the closed ring through an odd number of edges.
+/// Whether a ray from `p` crosses the closed ring an odd number of times.
 fn contains(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let passes = |w: &[[f64; 2]]| {
         let ([x0, y0], [x1, y1]) = (w[0], w[1]);
@@ -108,7 +108,7 @@ pub(super) fn discs(sheet: &Sheet) -> Result<String, ExportError> {
     if others == 0 { Ok(text) } else { Err(ExportError::NoDisc { others, all: sheet.outlines.len() }) }
 }
 
-/// A shape file, one shape a line, with its depth in m where there is one.
+/// A shape file with one shape per line, and its depth in m if there is one.
 pub(super) fn toml(spec: &GeometrySpec, depth: Option<f64>) -> Result<String, ExportError> {
     let pair = |[x, y]: [f64; 2]| format!("[{x:?}, {y:?}]");
     let mut text = format!("format = 1\nmin = {} # m\nmax = {}\n", pair(spec.min), pair(spec.max));

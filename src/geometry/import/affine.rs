@@ -12,7 +12,7 @@ pub(crate) struct Affine {
 }
 
 impl Affine {
-    /// The map that moves nothing.
+    /// The identity.
     pub(crate) fn identity() -> Self {
         Self { linear: Mat2::identity(), shift: Vec2::zeros() }
     }
@@ -27,12 +27,12 @@ impl Affine {
         Self { linear: Mat2::identity(), shift: by }
     }
 
-    /// The map that multiplies x by `x` and y by `y`.
+    /// The map that scales x by `x` and y by `y`.
     pub(crate) fn scaling(x: f64, y: f64) -> Self {
         Self { linear: Mat2::new(x, 0.0, 0.0, y), shift: Vec2::zeros() }
     }
 
-    /// The counter-clockwise turn about the origin by `degrees`, exact for quarter turns.
+    /// The counter-clockwise rotation about the origin by `degrees`, exact for multiples of 90.
     pub(crate) fn rotation_deg(degrees: f64) -> Self {
         let (sin, cos) = match degrees.rem_euclid(360.0) {
             0.0 => (0.0, 1.0),
@@ -44,7 +44,7 @@ impl Affine {
         Self { linear: Mat2::new(cos, -sin, sin, cos), shift: Vec2::zeros() }
     }
 
-    /// The map that does `first`, then this one.
+    /// The composition: `first`, then this map.
     pub(crate) fn after(&self, first: &Self) -> Self {
         Self { linear: self.linear * first.linear, shift: self.apply(first.shift) }
     }

@@ -1,35 +1,35 @@
-//! Smooth curves as chains of circular arcs: pairs of arcs that meet the curve's points and tangents (biarcs), halved until they are
-//! near enough. Neighbors share their tangents, so that the chain has no corners where the curve has none.
+//! Smooth curves as chains of circular arcs: pairs of arcs (biarcs) that interpolate points and tangents of the curve, bisected to a tolerance. Neighbors
+//! share their tangents, so that the chain has corners only where the curve has them.
 //!
-//! Source: Bolton, Biarc curves, Computer-Aided Design 7 (1975) 89-92; the pair with control arms of equal length. The distance from the
-//! curve falls with the third power of the length of a piece, that of the curvature with the first.
+//! Source: Bolton, Biarc curves, Computer-Aided Design 7 (1975) 89-92; the pair with control arms of equal length. The distance from the curve is of third
+//! order in the length of a piece, that of the curvature of first order.
 
 use crate::geometry::curve::cross;
 use crate::math::Vec2;
 
-/// Distance of a chain from its curve, as a share of the size of the curve.
+/// Distance of a chain from its curve over the size of the curve.
 pub(crate) const TOLERANCE: f64 = 1e-5;
-/// Halvings of a piece; the third power makes of that many far less than the rounding of its coordinates, but at a cusp.
+/// Maximum number of bisections of a piece; third-order convergence reaches the rounding of coordinates with far fewer, except at a cusp.
 const DEEPEST: u32 = 16;
-/// Share of its coordinates below which a distance is rounding.
+/// Rounding of distances over the coordinates.
 const ROUNDING: f64 = 1e-13;
-/// Largest bulge of one arc, that of a quarter circle: beyond, the samples of a piece could lie on the wrong side of a circle.
+/// Largest bulge of one arc, that of a quarter circle: beyond, samples of a piece could lie on the wrong side of a circle.
 const LARGEST_BULGE: f64 = 0.42;
-/// A bulge below this is a straight line: its arc leaves the chord by half of this times the chord.
+/// Bulge below which an edge is straight: the sagitta is half of this times the chord.
 const STRAIGHT: f64 = 1e-9;
-/// Points of a piece that are compared with its arcs.
+/// Number of points of a piece that are compared with its arcs.
 const SAMPLES: usize = 7;
 
 /// A curve with a tangent at each parameter.
 pub(crate) trait SmoothCurve {
     /// The point at `t`.
     fn point(&self, t: f64) -> Vec2;
-    /// The unit tangent at `t` of the piece after it (`side` 1) or before it (`side` -1); zero where there is none.
+    /// The unit tangent at `t` of the piece after it (`side` 1) or before it (`side` -1); zero if there is none.
     fn tangent(&self, t: f64, side: f64) -> Vec2;
 }
 
-/// Appends the chain for `curve` from `from` to `to` to `vertices`, as x, y and bulge: the start of each arc, the end of none.
-/// `size` is that of the whole curve.
+/// Appends the chain for `curve` from `from` to `to` to `vertices`, as x, y and bulge: the start of each arc, without the last end. `size` is that of the
+/// whole curve.
 pub(crate) fn append(curve: &impl SmoothCurve, from: f64, to: f64, size: f64, vertices: &mut Vec<[f64; 3]>) {
     let (a, b) = (curve.point(from), curve.point(to));
     let tolerance = (TOLERANCE * size).max(ROUNDING * (a.amax() + b.amax()));
@@ -62,7 +62,7 @@ fn halve(
     }
 }
 
-/// Two arcs from `a` over `joint` to `b`, by their bulges.
+/// Two arcs from `a` via `joint` to `b`, by their bulges.
 struct Biarc {
     a: Vec2,
     joint: Vec2,
@@ -71,7 +71,7 @@ struct Biarc {
 }
 
 impl Biarc {
-    /// The pair through both ends with both unit tangents; none where it is not of two moderate arcs.
+    /// The pair with given ends and unit tangents; `None` unless both arcs are moderate.
     fn new([a, b]: [Vec2; 2], [from, to]: [Vec2; 2]) -> Option<Self> {
         let chord = b - a;
         let sum = from + to;
@@ -82,7 +82,7 @@ impl Biarc {
         let first = bulge_from_tangent(from, joint - a);
         let second = -bulge_from_tangent(-to, joint - b);
         let bulges = [first, second];
-        // Also false where a tangent is missing or an arm infinite.
+        // Also false if a tangent is missing or an arm infinite.
         (arm > 0.0 && arm.is_finite() && bulges.iter().all(|bulge| bulge.abs() <= LARGEST_BULGE)).then_some(Self {
             a,
             joint,
@@ -109,11 +109,11 @@ impl Biarc {
 
 /// The bulge of the arc over `chord` that begins along the unit vector `tangent`.
 fn bulge_from_tangent(tangent: Vec2, chord: Vec2) -> f64 {
-    // The angle between both is half of the arc's; the bulge is the tangent of a quarter of that.
+    // The angle between both is half of the arc's angle; the bulge is the tangent of a quarter of that.
     cross(tangent, chord) / (chord.norm() + tangent.dot(&chord))
 }
 
-/// The distance of `x` from the whole circle of an arc, by a formula that holds for a straight one too.
+/// The distance of `x` from the full circle of an arc, by a formula valid for a straight edge too.
 fn distance_to_circle(a: Vec2, b: Vec2, bulge: f64, x: Vec2) -> f64 {
     let (chord, middle) = (b - a, 0.5 * (a + b));
     let length = chord.norm();
@@ -123,7 +123,7 @@ fn distance_to_circle(a: Vec2, b: Vec2, bulge: f64, x: Vec2) -> f64 {
     // The arc's half angle has the sine `curvature * length / 2` and this cosine.
     let curvature = 4.0 * bulge / ((1.0 + bulge * bulge) * length);
     let cosine = (1.0 - bulge * bulge) / (1.0 + bulge * bulge);
-    // Half the curvature times (distance from the center squared less radius squared).
+    // Half the curvature times (squared distance from the center minus squared radius).
     let across = cross(chord, x - a) / length;
     let f = 0.5 * curvature * ((x - middle).norm_squared() - 0.25 * length * length) - cosine * across;
     2.0 * f.abs() / (1.0 + (1.0 + 2.0 * curvature * f).max(0.0).sqrt())
@@ -165,7 +165,7 @@ mod tests {
                 chain.iter().map(|arc| (arc.project(x).point - x).norm()).fold(f64::INFINITY, f64::min)
             })
             .fold(0.0, f64::max);
-        // A few percent more may lie between the points that are compared.
+        // Between the compared points the distance may be a few percent larger.
         assert!(farthest < 1.1 * TOLERANCE * 7.0 && farthest > 0.0, "{farthest:e}");
         assert!(chain.len() < 80, "{} arcs", chain.len());
     }

@@ -1,4 +1,4 @@
-//! From a drawing to shapes in m: unit, repairs, fills and holes, circles and arcs recognized, domain, and what is said about all this.
+//! From a drawing to shapes in m: unit, repairs, fills and holes, recognition of circles and arcs, domain, and notes on all of these.
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
@@ -16,36 +16,35 @@ use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
-/// Margin around the shapes where nothing names a domain, over the longer side of the box around them: fluid can pass between the
-/// shapes and the sides.
+/// Default margin around the shapes over the longer side of their bounding box: fluid can pass between the shapes and the sides.
 const MARGIN: f64 = 0.1;
 
 /// Largest length of a drawing in m: that of the largest domain.
 const LARGEST: f64 = 1e15;
 
-/// Shapes read from a drawing, and what the user should know of how they were read.
+/// Shapes read from a drawing, with notes for the user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
     /// Domain and shapes in m.
     pub spec: GeometrySpec,
-    /// Distance of floor and lid in m, where the file has one: only our own shape files do.
+    /// Distance between floor and lid in m, if given: only our own shape files can.
     pub depth: Option<f64>,
-    /// One sentence each: unit, what was read, recognized, repaired, not used.
+    /// One sentence each: unit, what was read, recognized, repaired, ignored.
     pub notes: Vec<String>,
 }
 
-/// Why a drawing gives no shapes.
+/// Why a drawing cannot be converted to shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Refused {
-    /// Keys beside the file are missing or wrong.
+    /// Keys besides the file are missing or invalid.
     Keys(Vec<Problem>),
     /// Parts of the file.
     Parts(Vec<Refusal>),
-    /// The shapes make no sense; paths name places in the file.
+    /// The shapes are invalid; paths are source locations in the file.
     Shapes(Vec<Problem>),
 }
 
-/// A shape and where it stands in the file.
+/// A shape and its source location.
 struct Placed {
     shape: ShapeSpec,
     place: String,
@@ -99,10 +98,10 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     }
 }
 
-/// A shape file of ours seen through the window of the options, solid and pore in turn where they say so.
+/// A shape file of ours clipped to the window of the options, with solid and pore exchanged if they ask for it.
 ///
 /// # Errors
-/// Problems with the keys `window` and `invert`.
+/// Problems of the keys `window` and `invert`.
 pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Imported, Vec<Problem>> {
     let mut notes = Vec::new();
     if options.is_inverted() {
@@ -123,11 +122,11 @@ pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Impo
     Err(problems.into_iter().map(|problem| Problem { path: key.into(), ..problem }).collect())
 }
 
-/// The problem with the place in the file in front of its path.
+/// The problem with the source location prepended to its path.
 fn placed(problem: Problem, places: &[String]) -> Problem {
     let index = problem.path.strip_prefix("shapes[").and_then(|rest| rest.split(']').next()?.parse::<usize>().ok());
     match index.and_then(|index| places.get(index)) {
-        // The index counts shapes that were made of the file, which nobody sees.
+        // The index counts internal shapes, which are not visible to the user.
         Some(place) => {
             let keys = problem.path.split_once("].").map_or("", |(_, keys)| keys);
             Problem { path: format!("{place}, {keys}"), ..problem }
@@ -136,7 +135,7 @@ fn placed(problem: Problem, places: &[String]) -> Problem {
     }
 }
 
-/// The outlines in m, without doubled vertices and without rings that enclose nothing.
+/// The outlines in m, without duplicate vertices and without rings of zero area.
 fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mut Vec<Refusal>) -> Vec<Entity> {
     let corner = |entity: &Entity| -> Vec<Vec2> {
         match &entity.outline {
@@ -150,7 +149,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     let tolerance = DOUBLED * size;
     let mut found = Vec::with_capacity(entities.len());
     for Entity { outline, paint, place } in entities {
-        // The bulge of a vertex is no length.
+        // The bulge of a vertex is not a length.
         let lengths: Vec<f64> = match &outline {
             Outline::Disc { center, radius } => vec![center.x, center.y, *radius],
             Outline::Area { rings, .. } => {
@@ -191,7 +190,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     found
 }
 
-/// The regions that the outlines fill: each entity by itself, in the order of painting, or all together in formats without fills.
+/// The regions filled by the outlines: of each entity separately, in painting order, or of all together in formats without fills.
 fn grouped(
     entities: Vec<Entity>,
     nesting: Nesting,
@@ -211,7 +210,7 @@ fn grouped(
     solids(found, notes, refusals)
 }
 
-/// The regions of one outline; what was found instead, and what was expected.
+/// The regions of one outline; on failure what was found, and what was expected.
 fn regions_of(outline: Outline, nesting: Nesting) -> Result<Vec<Region>, (String, &'static str)> {
     let (rings, rule) = match outline {
         Outline::Disc { center, radius } => return Ok(vec![(circle(center, radius), Vec::new())]),
@@ -237,7 +236,7 @@ fn regions_of(outline: Outline, nesting: Nesting) -> Result<Vec<Region>, (String
     fault.map_or_else(|| Ok(regions(&rings, FillRule::EvenOdd)), |found| Err((found, expected)))
 }
 
-/// A hole that is not within the first ring, or runs along it.
+/// A hole that is not inside the first ring, or coincides with it along a line.
 fn outside(rings: &[Ring]) -> Option<RingFault> {
     let turned = |(k, ring): (usize, &Ring)| {
         let ring = if (ring.area() > 0.0) == (k == 0) { ring.clone() } else { ring.reversed() };
@@ -249,14 +248,14 @@ fn outside(rings: &[Ring]) -> Option<RingFault> {
         .find(|fault| matches!(fault, RingFault::NotContained { .. } | RingFault::OnALine { .. }))
 }
 
-/// Two rings that cross, as text, with numbers from 0.
+/// Two rings that cross, as text, with indices from 0.
 fn crossing_rings(rings: &[Ring]) -> Option<String> {
     let curves: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(&ring.vertices).collect()).collect();
     let ([one, other], at) = crossing(&curves)?;
     Some(format!("rings {one} and {other} that cross at ({:e}, {:e}) m", at.x, at.y))
 }
 
-/// All rings of a drawing without fills: those within others are holes, those within holes islands.
+/// All rings of a drawing without fills: those inside others are holes, those inside holes islands.
 fn nested_entities(entities: Vec<Entity>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
     let mut all = Vec::new();
     for Entity { outline, place, .. } in entities {
@@ -280,7 +279,7 @@ fn circle(center: Vec2, radius: f64) -> Ring {
     Ring { vertices: vec![[center.x - radius, center.y, 1.0], [center.x + radius, center.y, 1.0]] }
 }
 
-/// The shape of a region: circles behind polygons and arcs behind runs of vertices are recognized where the user wants it.
+/// The shape of a region: circles behind polygons and arcs behind runs of vertices are recognized if the options ask for it.
 fn recognized((outer, holes): Region, is_of_pixels: bool, options: &Options, counts: &mut Counts) -> ShapeSpec {
     let is_exact_circle = |ring: &Ring| ring.vertices.len() == 2;
     let find = |ring: &Ring, counts: &mut Counts| -> Option<(Vec2, f64)> {
@@ -317,14 +316,14 @@ fn recognized((outer, holes): Region, is_of_pixels: bool, options: &Options, cou
     shape_of(outer, holes)
 }
 
-/// The problem of a window beside the drawing.
+/// The problem of a window outside the drawing.
 fn nothing_within(domain: Bounds, around: Bounds) -> Problem {
     let span = |b: Bounds| format!("({:e}, {:e}) to ({:e}, {:e}) m", b.min.x, b.min.y, b.max.x, b.max.y);
     let message = format!("no shape reaches into the domain, {}; the shapes span {}", span(domain), span(around));
     Problem::new("window", message, "move the window, or check `unit` or `scale`")
 }
 
-/// The domain and where it comes from.
+/// The domain and its origin.
 fn domain(around: Bounds, frame: Option<Bounds>, options: &Options) -> (Bounds, &'static str) {
     if let Some([min, max]) = options.window {
         return (Bounds { min: min.into(), max: max.into() }, "the window");
@@ -335,7 +334,7 @@ fn domain(around: Bounds, frame: Option<Bounds>, options: &Options) -> (Bounds, 
     (around.grown(MARGIN * around.size().max()), "the box around the shapes with a margin of a tenth")
 }
 
-/// Corners of the box around a shape of a drawing.
+/// Corners of the bounding box of a shape of a drawing.
 fn corners_of(shape: &ShapeSpec) -> Vec<Vec2> {
     let ring = |vertices: &[[f64; 3]]| {
         let bounds = Ring { vertices: vertices.to_vec() }.bounds();

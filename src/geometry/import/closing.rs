@@ -1,6 +1,6 @@
-//! Closed contours: the circle or the ring that pieces of a drawing enclose.
+//! Closed contours: the circle or the ring formed by pieces of a drawing.
 //!
-//! Pieces that follow each other become one ring of segments and arcs; arcs of one circle that close become that circle.
+//! Consecutive pieces become one ring of segments and arcs; arcs of one circle that close become that circle.
 
 use std::f64::consts::TAU;
 
@@ -9,15 +9,15 @@ use super::drawing::Ring;
 use crate::geometry::curve::cross;
 use crate::math::{Bounds, Vec2};
 
-/// Arcs whose centers and radii agree to this share of the radius lie on one circle: the center of a half circle moves by the
-/// square root of the rounding of its ends.
+/// Arcs whose centers and radii agree to this fraction of the radius lie on one circle: the error of the center of a half circle is the square root of the
+/// rounding of its ends.
 const ONE_CIRCLE: f64 = 1e-6;
-/// Vertices closer than this share of the ring's size are one.
+/// Vertices closer than this fraction of the ring's size coincide.
 const ONE_VERTEX: f64 = 1e-9;
-/// Share of the square of its size below which a ring has no area.
+/// Area of a degenerate ring over the square of its size.
 const NO_AREA: f64 = 1e-12;
 
-/// What a closed contour is.
+/// Result of closing a contour.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Closed {
     /// An exact circle.
@@ -31,12 +31,11 @@ pub(crate) enum Closed {
     },
     /// A ring of segments and arcs.
     Ring(Ring),
-    /// Nothing: it encloses no area.
+    /// Degenerate: it encloses no area.
     Empty,
 }
 
-/// The closed shape of pieces that follow each other; a last one that ends farther than `gap` from where the first begins is joined to it
-/// by a line.
+/// The closed shape of consecutive pieces; if the end is farther than `gap` from the start, both are connected by a line.
 pub(crate) fn close(pieces: &[Piece], gap: f64) -> Closed {
     if let [Piece::Ellipse(arc)] = pieces
         && arc.sweep.abs() >= TAU
@@ -65,15 +64,15 @@ pub(crate) fn close(pieces: &[Piece], gap: f64) -> Closed {
     }
     let ring = Ring { vertices };
     let has_net_area = area(&ring.vertices).abs() > NO_AREA * size * size;
-    // The lobes of a figure of eight, which takes three vertices, may cancel in its area.
+    // The signed areas of the lobes of a figure of eight, which takes three vertices, may cancel.
     let has_area = has_net_area || (ring.vertices.len() > 2 && ring.width() > ONE_VERTEX * size);
     if ring.vertices.len() < 2 || !has_area { Closed::Empty } else { Closed::Ring(ring) }
 }
 
-/// Leaves out each vertex that lies on the next one, also the last that lies on the first.
+/// Removes each vertex that coincides with the next one, also the last that coincides with the first.
 fn merge_vertices(vertices: &mut Vec<[f64; 3]>, distance: f64) {
     let is_near = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) <= distance;
-    // The later one is kept with its bulge: the edge between both has no length. The first stays where it is.
+    // The later one is kept with its bulge: the edge between both has zero length. The first one stays in place.
     let mut kept: Vec<[f64; 3]> = Vec::with_capacity(vertices.len());
     for vertex in vertices.drain(..) {
         match kept.last_mut() {
@@ -106,7 +105,7 @@ pub(super) fn area(vertices: &[[f64; 3]]) -> f64 {
     edges(vertices).map(piece).sum()
 }
 
-/// The circle on which all edges lie, if it is one and they run around it once.
+/// The circle that contains all edges, if they run around it once.
 fn one_circle(vertices: &[[f64; 3]]) -> Option<(Vec2, f64)> {
     let turn: f64 = vertices.iter().map(|vertex| 4.0 * vertex[2].atan()).sum();
     if (turn.abs() - TAU).abs() > ONE_CIRCLE {

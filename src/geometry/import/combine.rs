@@ -1,4 +1,4 @@
-//! Regions united, cut by and cut out of each other, arcs kept exactly.
+//! Boolean operations on regions, with exact arcs.
 
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{difference, intersection, union};
@@ -8,16 +8,16 @@ use crate::geometry::import::nest::{Region, regions};
 use crate::geometry::import::nodes::Nodes;
 use crate::math::Bounds;
 
-/// Ends of curves closer than so many tolerances are one: they are computed twice, once on each curve.
+/// Ends of curves closer than this many tolerances coincide: they are computed twice, once on each curve.
 const JOINED: f64 = 10.0;
 
 /// A region that can be combined with others.
 pub(crate) struct Solid(Body);
 
 impl Solid {
-    /// The solid of a region whose rings are sound.
+    /// The solid of a region with valid rings.
     pub(crate) fn of((outer, holes): &Region) -> Option<Self> {
-        // The box matters to shapes without end only.
+        // The box is relevant only to infinite shapes.
         let bounds = outer.bounds();
         Body::of(&shape_of(outer.clone(), holes.clone()), 0, bounds).into_iter().next().map(Self)
     }
@@ -27,18 +27,18 @@ impl Solid {
         self.0.bounds
     }
 
-    /// What is left without the others; none where it cannot be told.
+    /// The difference to the others; `None` if it cannot be determined.
     pub(crate) fn without(&self, others: &[Self], tolerance: f64) -> Option<Vec<Region>> {
         let others: Vec<&Body> = others.iter().map(|other| &other.0).collect();
         closed(&difference(&self.0, &others, tolerance), tolerance)
     }
 
-    /// What both cover; none where it cannot be told.
+    /// The intersection of both; `None` if it cannot be determined.
     pub(crate) fn within(&self, other: &Self, tolerance: f64) -> Option<Vec<Region>> {
         closed(&intersection(&self.0, &other.0, tolerance), tolerance)
     }
 
-    /// What all together cover; none where it cannot be told.
+    /// The union of all; `None` if it cannot be determined.
     pub(crate) fn united(all: &[Self], tolerance: f64) -> Option<Vec<Region>> {
         let bodies: Vec<&Body> = all.iter().map(|one| &one.0).collect();
         let curves: Vec<Curve> = union(&bodies, tolerance).into_iter().map(|piece| piece.curve).collect();
@@ -46,7 +46,7 @@ impl Solid {
     }
 }
 
-/// The regions within closed curves, solid on the left of each; none where a curve leads nowhere.
+/// The regions within closed curves, solid on the left of each; `None` if a curve has a dead end.
 fn closed(curves: &[Curve], tolerance: f64) -> Option<Vec<Region>> {
     let mut nodes = Nodes::new(JOINED * tolerance);
     let ends: Vec<[usize; 2]> = curves.iter().map(|curve| [0.0, 1.0].map(|u| nodes.number(curve.point(u)))).collect();
@@ -126,7 +126,7 @@ mod tests {
         let plate = solid(&bar(0.0, 0.0, 2.0, 2.0));
         let left = plate.without(&[solid(&bar(0.0, 0.0, 1.0, 1.0)), solid(&bar(1.0, 1.0, 1.0, 1.0))], 1e-9).unwrap();
         assert_eq!(left.iter().map(|(outer, holes)| (outer.area(), holes.len())).collect::<Vec<_>>(), [(1.0, 0); 2]);
-        // A diamond whose tips meet the sides of the plate.
+        // A diamond whose vertices lie on the sides of the plate.
         let tips = [[2.0, 1.0], [1.0, 2.0], [0.0, 1.0], [1.0, 0.0]];
         let diamond = (Ring { vertices: tips.map(|[x, y]| [x, y, 0.0]).to_vec() }, Vec::new());
         let left = plate.without(&[solid(&diamond)], 1e-9).unwrap();

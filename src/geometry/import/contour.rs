@@ -1,8 +1,8 @@
-//! Contours of drawings: lines, elliptic arcs, Bezier curves and splines, moved by nested transforms exactly and only then written as
-//! rings of segments and circular arcs.
+//! Contours of drawings: lines, elliptic arcs, Bezier curves and splines, transformed exactly by nested maps and only then converted to rings of segments and
+//! circular arcs.
 //!
-//! An elliptic arc is held by two conjugate radii, which any affine map turns into two others: a circle stays an exact circle as long
-//! as the maps in sum turn, scale and mirror it. All other curves become biarcs.
+//! An elliptic arc is represented by two conjugate radii, which any affine map transforms to two others: a circle stays an exact circle as long as the
+//! composed map rotates, scales and mirrors it. All other curves become biarcs.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,7 +12,7 @@ use super::spline::BSpline;
 use crate::geometry::curve::cross;
 use crate::math::{Vec2, perpendicular};
 
-/// Conjugate radii as equal and as square to each other as this share of them make a circle: rounding of nested transforms.
+/// Relative tolerance for conjugate radii of a circle, equal and orthogonal: rounding of nested transforms.
 const CIRCULAR: f64 = 1e-9;
 
 /// A smooth part of a contour, from one point to another.
@@ -31,7 +31,7 @@ pub(crate) enum Piece {
 /// The points center + radii\[0\] cos t + radii\[1\] sin t from `start` over the signed angle `sweep`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EllipticArc {
-    /// First and last point, as exact as the file has them.
+    /// First and last point, exactly as in the file.
     pub(crate) ends: [Vec2; 2],
     /// Center.
     pub(crate) center: Vec2,
@@ -39,7 +39,7 @@ pub(crate) struct EllipticArc {
     pub(crate) radii: [Vec2; 2],
     /// Angle t of the first point in rad.
     pub(crate) start: f64,
-    /// Angle t from the first point to the last in rad, at most 2π in size.
+    /// Angle t from the first point to the last in rad, at most 2π in magnitude.
     pub(crate) sweep: f64,
 }
 
@@ -57,7 +57,7 @@ impl EllipticArc {
         Self::new(center, [Vec2::new(radius, 0.0), Vec2::new(0.0, radius)], 0.0, TAU)
     }
 
-    /// The circular arc between two points with a bulge; none where it is straight.
+    /// The circular arc between two points with a bulge; `None` if it is straight.
     pub(crate) fn from_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<Self> {
         let (center, radius) = circle_of_bulge([a, b], bulge)?;
         let from = a - center;
@@ -114,7 +114,7 @@ impl SmoothCurve for [Vec2; 4] {
     fn point(&self, t: f64) -> Vec2 {
         let [a, b, c, d] = *self;
         let s = 1.0 - t;
-        // The exact ends keep neighbors together.
+        // Exact ends keep neighbors connected.
         if t == 1.0 { d } else { a * (s * s * s) + (b * s + c * t) * (3.0 * s * t) + d * (t * t * t) }
     }
 
@@ -126,14 +126,14 @@ impl SmoothCurve for [Vec2; 4] {
         let speed = first * (s * s) + second * (2.0 * s * t) + third * (t * t);
         let bend = ((second - first) * s + (third - second) * t) * side;
         let twist = (third - second) - (second - first);
-        // Where the speed vanishes the next derivative tells the direction.
+        // Where the first derivative vanishes the next one gives the direction.
         let rounding = 1e-12 * size;
         [speed, bend, twist].into_iter().find(|v| v.norm() > rounding).map_or_else(Vec2::zeros, |v| v.normalize())
     }
 }
 
 impl Piece {
-    /// The Bezier curve of second degree by its control points.
+    /// The quadratic Bezier curve with these control points.
     pub(crate) fn quadratic([a, b, c]: [Vec2; 3]) -> Self {
         Self::Cubic([a, a + (b - a) * (2.0 / 3.0), c + (b - c) * (2.0 / 3.0), c])
     }
@@ -156,7 +156,7 @@ impl Piece {
         }
     }
 
-    /// A point inside, to tell pieces with the same ends apart.
+    /// An interior point, to distinguish pieces with the same ends.
     pub(crate) fn middle(&self) -> Vec2 {
         match self {
             Self::Line([a, b]) => 0.5 * (a + b),
@@ -184,7 +184,7 @@ impl Piece {
         }
     }
 
-    /// The same points run through backwards.
+    /// The same points in reverse order.
     pub(crate) fn reversed(&self) -> Self {
         match self {
             Self::Line([a, b]) => Self::Line([*b, *a]),
@@ -199,7 +199,7 @@ impl Piece {
         }
     }
 
-    /// Whether all numbers of it can be computed with.
+    /// Whether all its numbers are in range.
     pub(crate) fn is_in_range(&self) -> bool {
         let is_in_range = super::limits::is_in_range;
         match self {
@@ -233,7 +233,7 @@ impl Piece {
     }
 }
 
-/// Center and radius of the arc between two points; none where it is straight.
+/// Center and radius of the arc between two points; `None` if it is straight.
 pub(super) fn circle_of_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<(Vec2, f64)> {
     let chord = b - a;
     let length = chord.norm();

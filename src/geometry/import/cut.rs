@@ -1,8 +1,7 @@
-//! Shapes cut at the sides of a window by true geometry.
+//! Shapes cut exactly at the sides of a window.
 //!
-//! What lies beyond a side that is a wall is never seen, so that shapes stay whole there. Beyond an open side walls go on straight, as the
-//! solvers want it: the shape is cut along the side and its section drawn out. At a periodic side the drawing ends, and its
-//! part in the window is what is repeated. Arcs stay arcs.
+//! The parts beyond a wall side are invisible, so that shapes stay complete there. Beyond an open side walls continue straight, as the solvers require: the
+//! shape is cut along the side and its section extruded. At a periodic side the drawing ends, and its part in the window is repeated. Arcs stay arcs.
 
 use crate::geometry::body::{Body, bulged_ring};
 use crate::geometry::curve::Curve;
@@ -11,22 +10,22 @@ use crate::geometry::import::nest::regions;
 use crate::geometry::spec::GeometrySpec;
 use crate::math::{Bounds, Vec2};
 
-/// Vertices nearer to a side than this share of the window's longer side are on it.
+/// Vertices nearer to a side than this fraction of the window's longer side are on it.
 pub(crate) const ON_SIDE: f64 = 1e-9;
 
-/// What becomes of shapes beyond a side of the window.
+/// Treatment of shapes beyond a side of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Beyond {
-    /// They stay as they are: a wall hides them, or nothing is beyond.
+    /// They stay unchanged: a wall hides them, or nothing is beyond.
     #[default]
     Whole,
-    /// They go on straight: an open side.
+    /// They continue straight: an open side.
     Straight,
     /// They end: a periodic side.
     Nothing,
 }
 
-/// Where a curve crosses the line on which coordinate `axis` is `at`: parameters from 0 to 1.
+/// Parameters from 0 to 1 at which a curve crosses the line where coordinate `axis` equals `at`.
 pub(crate) fn crossings(curve: &Curve, axis: usize, at: f64) -> Vec<f64> {
     match *curve {
         Curve::Segment { a, b } => {
@@ -38,7 +37,7 @@ pub(crate) fn crossings(curve: &Curve, axis: usize, at: f64) -> Vec<f64> {
             if !(height.abs() < 1.0) {
                 return Vec::new();
             }
-            // The line is met at two angles about the axis.
+            // The line is crossed at two angles symmetric about the axis.
             let middle = if axis == 0 { 0.0 } else { std::f64::consts::FRAC_PI_2 };
             let mut found: Vec<f64> = [middle - height.acos(), middle + height.acos()]
                 .into_iter()
@@ -51,7 +50,7 @@ pub(crate) fn crossings(curve: &Curve, axis: usize, at: f64) -> Vec<f64> {
     }
 }
 
-/// Cuts the shapes at the sides of the domain: left, right, bottom, top. Returns how many were cut, and how many could not be.
+/// Cuts the shapes at the sides of the domain: left, right, bottom, top. Returns the numbers of shapes that were cut and of failures.
 pub(crate) fn cut_at_sides(spec: &mut GeometrySpec, beyond: [Beyond; 4]) -> (usize, usize) {
     let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
     let (mut shapes, mut done, mut failed) = (Vec::with_capacity(spec.shapes.len()), 0, 0);
@@ -78,7 +77,7 @@ pub(crate) fn cut_at_sides(spec: &mut GeometrySpec, beyond: [Beyond; 4]) -> (usi
     (done, failed)
 }
 
-/// Whether a body crosses or touches a side at which it is to be cut. Walls without end go on by themselves.
+/// Whether a body crosses or touches a side at which it is to be cut. Infinite walls continue anyway.
 fn is_cut(body: &Body, domain: Bounds, beyond: [Beyond; 4]) -> bool {
     let near = ON_SIDE * domain.size().max();
     let b = body.bounds;
@@ -91,7 +90,7 @@ fn is_cut(body: &Body, domain: Bounds, beyond: [Beyond; 4]) -> bool {
     !body.is_endless() && (0..4).any(|side| beyond[side] != Beyond::Whole && crosses[side])
 }
 
-/// The rings of a body, cut at all sides; nothing where they do not close.
+/// The rings of a body, cut at all sides; `None` if they do not close.
 fn rings_of(body: &Body, domain: Bounds, beyond: [Beyond; 4]) -> Option<Vec<Ring>> {
     let mut rings = loops(&body.curves)?;
     for (side, what) in beyond.into_iter().enumerate().filter(|(_, what)| *what != Beyond::Whole) {
@@ -104,12 +103,12 @@ fn rings_of(body: &Body, domain: Bounds, beyond: [Beyond; 4]) -> Option<Vec<Ring
     Some(rings)
 }
 
-/// The closed rings of curves that follow each other.
+/// The closed rings of consecutive curves.
 fn loops(curves: &[Curve]) -> Option<Vec<Ring>> {
     let (mut rings, mut open) = (Vec::new(), Ring::default());
     let mut first: Option<Vec2> = None;
     for curve in curves {
-        // Arcs above a half circle are halved: their bulge would lose digits.
+        // Arcs above a half circle are divided in two, as their bulge would lose digits.
         let parts = match curve {
             Curve::Arc { sweep, .. } if sweep.abs() > std::f64::consts::PI => 2,
             _ => 1,
@@ -138,12 +137,12 @@ struct Line {
     axis: usize,
     at: f64,
     is_upper: bool,
-    /// Where the section is drawn out to.
+    /// Coordinate to which the section is extruded.
     far: Option<f64>,
     near: f64,
 }
 
-/// Edges of a ring within the window, from the side to the side.
+/// Consecutive edges of a ring within the window, from side to side.
 struct Run {
     vertices: Vec<[f64; 3]>,
     end: Vec2,
@@ -183,7 +182,7 @@ impl Line {
         if self.is_upper { x[self.axis] < self.at } else { x[self.axis] > self.at }
     }
 
-    /// The point on the side where it is as good as there.
+    /// The point moved onto the side if it is there within rounding.
     fn snapped(&self, mut x: Vec2) -> Vec2 {
         if (x[self.axis] - self.at).abs() <= self.near {
             x[self.axis] = self.at;
@@ -203,11 +202,11 @@ impl Line {
             })
             .collect();
         for (curve, &[x, y, bulge]) in bulged_ring(&corners).zip(&corners) {
-            let mut places = vec![0.0];
+            let mut parameters = vec![0.0];
             let end = self.near / curve.length();
-            places.extend(crossings(&curve, self.axis, self.at).into_iter().filter(|u| end < *u && *u < 1.0 - end));
-            places.push(1.0);
-            for (k, pair) in places.windows(2).enumerate() {
+            parameters.extend(crossings(&curve, self.axis, self.at).into_iter().filter(|u| end < *u && *u < 1.0 - end));
+            parameters.push(1.0);
+            for (k, pair) in parameters.windows(2).enumerate() {
                 let mut from = if k == 0 { Vec2::new(x, y) } else { curve.point(pair[0]) };
                 if k > 0 {
                     from[self.axis] = self.at;
@@ -246,21 +245,21 @@ impl Line {
         run.vertices.first().map_or(run.end, |v| Vec2::new(v[0], v[1]))
     }
 
-    /// The run that follows each one around a solid section of the side; nothing where ends do not pair.
+    /// The run that follows each one around a solid section of the side; `None` if ends do not pair.
     fn followers(&self, runs: &[Run]) -> Option<Vec<usize>> {
         let along = 1 - self.axis;
-        // The solid is on the left of a run that leaves the window, so that its section opens upwards on the right and the bottom side.
+        // The solid is on the left of a run that leaves the window, so that its section extends upwards on the right and the bottom side.
         let end_is_lower = self.is_upper == (self.axis == 0);
-        let mut places: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * runs.len());
+        let mut ends: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * runs.len());
         for (i, run) in runs.iter().enumerate() {
-            places.push((self.start(run)[along], false, i));
-            places.push((run.end[along], true, i));
+            ends.push((self.start(run)[along], false, i));
+            ends.push((run.end[along], true, i));
         }
-        places.sort_by(|a, b| {
+        ends.sort_by(|a, b| {
             a.0.total_cmp(&b.0).then((a.1 != end_is_lower).cmp(&(b.1 != end_is_lower))).then(a.2.cmp(&b.2))
         });
         let mut next = vec![usize::MAX; runs.len()];
-        for pair in places.chunks(2) {
+        for pair in ends.chunks(2) {
             let [low, high] = pair else { return None };
             let (end, start) = if end_is_lower { (low, high) } else { (high, low) };
             if !end.1 || start.1 {

@@ -1,4 +1,4 @@
-//! What a reader finds in a drawing, in the drawing's own unit and before anything is scaled, recognized or cut.
+//! Result of a reader, in the unit of the drawing and before scaling, recognition or cutting.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,17 @@ use crate::math::{Bounds, Vec2};
 /// A closed ring of segments and circular arcs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ring {
-    /// x, y and the bulge of the edge that begins there (the tangent of a quarter of its signed angle); the first vertex is not repeated.
+    /// x, y and the bulge of the edge that starts there (the tangent of a quarter of its signed angle); the first vertex is not repeated.
     pub vertices: Vec<[f64; 3]>,
 }
 
-/// Which points a set of rings covers.
+/// Rules for the points covered by a set of rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FillRule {
-    /// Those that a ray leaves through an odd number of edges.
+    /// Those from which a ray crosses an odd number of edges.
     #[default]
     EvenOdd,
-    /// Those that the rings wind around, whatever the direction.
+    /// Those with a nonzero winding number.
     NonZero,
 }
 
@@ -33,7 +33,7 @@ pub enum Outline {
         /// Radius.
         radius: f64,
     },
-    /// Rings in any order and direction, filled together by one rule.
+    /// Rings in any order and orientation, filled together by one rule.
     Area {
         /// The rings.
         rings: Vec<Ring>,
@@ -42,29 +42,29 @@ pub enum Outline {
     },
 }
 
-/// With what a shape is painted.
+/// Fill of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Paint {
-    /// Any color but white: solid.
+    /// Any color except white: solid.
     #[default]
     Filled,
-    /// White, beside shapes that are not: pore where it covers others.
+    /// White, in a drawing with other colors: pore where it covers others.
     White,
-    /// Nothing: a closed outline.
+    /// None: a closed outline.
     Unfilled {
-        /// Its layer; empty where it is on none.
+        /// Its layer; empty without one.
         layer: String,
     },
 }
 
-/// A filled shape and where it stands in the file.
+/// A filled shape and its source location.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entity {
     /// The shape.
     pub outline: Outline,
-    /// With what it is painted.
+    /// Its fill.
     pub paint: Paint,
-    /// Where it stands, for messages: `line 12`, `LWPOLYLINE 2F`, `feature 3`.
+    /// Its source location for messages: `line 12`, `LWPOLYLINE 2F`, `feature 3`.
     pub place: String,
 }
 
@@ -77,60 +77,60 @@ pub struct Unit {
     pub meters: f64,
 }
 
-/// What the rings of a drawing are to each other.
+/// Relation of the rings of a drawing to each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Nesting {
-    /// Those of an entity are outer ones and holes in turn.
+    /// Nested rings of an entity are outer ones and holes alternately.
     #[default]
     Alternate,
     /// The same, and they must not cross.
     Apart,
-    /// The first one of an entity is its outer one, and all others are its holes.
+    /// The first ring of an entity is the outer one, and all others are its holes.
     FirstIsOuter,
-    /// They may cross: the rule of the entity says what they cover.
+    /// They may cross: the rule of the entity determines the area that they cover.
     ByRule,
-    /// Rings within those of other entities are holes: there are no fills.
+    /// Rings inside those of other entities are holes: there are no fills.
     OfAll,
 }
 
-/// All that a reader finds in a file.
+/// All data read from a file.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
     /// The filled shapes.
     pub entities: Vec<Entity>,
-    /// The unit that the file names, where it names one.
+    /// The unit given in the file, if any.
     pub unit: Option<Unit>,
-    /// Whether lengths are in m where nobody says otherwise.
+    /// Whether lengths are in m by default.
     pub is_in_meters: bool,
-    /// The page or domain that the file names, where it names one.
+    /// The page or domain given in the file, if any.
     pub frame: Option<Bounds>,
-    /// Whether the frame is a page, on which shapes are left out that nobody sees; on a domain they are mistakes.
+    /// Whether the frame is a page, outside which shapes are invisible and ignored; outside a domain they are errors.
     pub has_page: bool,
-    /// What its rings are to each other.
+    /// Relation of its rings to each other.
     pub nesting: Nesting,
-    /// Whether it is made of pixels: its curves are arcs, solid and pore as the options want them.
+    /// Whether it is made of pixels: its curves are arcs, and the options determine solid and pore.
     pub is_of_pixels: bool,
     /// The layers of the file with the number of entities on each, where the format has layers.
     pub layers: BTreeMap<String, usize>,
-    /// What was read and is not used, by kind, with its number: text, hatches, open lines, other layers.
+    /// Entities that were read but not used, by kind, with their number: text, hatches, open lines, other layers.
     pub unused: BTreeMap<String, usize>,
-    /// What the user should know beside that, one sentence each.
+    /// Further notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// What a reader refuses in a file.
+/// A part of a file that a reader rejects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
-    /// Where it stands: `line 12`, `LWPOLYLINE 2F`, `pixel (3, 4)`.
+    /// Its source location: `line 12`, `LWPOLYLINE 2F`, `pixel (3, 4)`.
     pub place: String,
     /// What was found there.
     pub found: String,
-    /// What was expected instead, or a way out.
+    /// What was expected instead, or a remedy.
     pub expected: String,
 }
 
 impl Refusal {
-    /// A refusal of its three parts.
+    /// A refusal with its three parts.
     pub(crate) fn new(place: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { place: place.into(), found: found.into(), expected: expected.into() }
     }
@@ -142,7 +142,7 @@ impl std::fmt::Display for Refusal {
     }
 }
 
-/// The polygon of these rings, turned as polygons want them, with arcs where it has some.
+/// The polygon of these rings, with the orientation required for polygons, and with arcs if it has any.
 pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
     let turned = |ring: Ring, ccw: bool| if (ring.area() > 0.0) == ccw { ring } else { ring.reversed() };
     let outer = turned(outer, true);
@@ -157,7 +157,7 @@ pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
     ShapeSpec::CurvedPolygon(CurvedPolygon { outer: outer.vertices, holes, position, rotation_deg })
 }
 
-/// The start of a curve with its bulge; a circle, and an arc of more than three quarters of one, in two halves.
+/// The start of a curve with its bulge; a circle, or an arc of more than three quarters of one, in two halves.
 pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
     const LARGE: f64 = 1.5 * std::f64::consts::PI;
     let vertex = |curve: &Curve| {
@@ -173,12 +173,12 @@ pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
     }
 }
 
-/// What tests of readers look at.
+/// Quantities checked in tests of readers.
 #[cfg(test)]
 pub(super) mod seen {
     use super::*;
 
-    /// The area without overlaps taken into account: of rings that do not cross, each with its own sign.
+    /// The area without regard to overlaps: of rings that do not cross, each with its own sign.
     pub(crate) fn area(outline: &Outline) -> f64 {
         match outline {
             Outline::Disc { radius, .. } => std::f64::consts::PI * radius * radius,

@@ -1,8 +1,8 @@
 //! ESRI shapefiles: the polygons of the main file (`.shp`), and the unit of the `.prj` beside it; `.shx` and `.dbf` are not needed.
 //!
-//! Layout: ESRI Shapefile Technical Description (1998). The main file is a header of 100 bytes and records, each with its length; it is
-//! read here and not by the crate `shapefile`, which allocates by the counts that a record declares and tells holes by direction alone.
-//! Lines, points and patches are counted and not used; z and m are left out.
+//! Layout: ESRI Shapefile Technical Description (1998). The main file is a header of 100 bytes and records, each with its length; it is read here and not by
+//! the crate `shapefile`, which allocates by the counts that a record declares and detects holes by orientation alone. Lines, points and patches are counted
+//! but not used; z and m are ignored.
 
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal, Unit};
 use crate::geometry::import::rings;
@@ -14,7 +14,7 @@ const FILE_CODE: i32 = 9994;
 /// Bytes of a polygon before its parts: type, box, number of parts, number of points.
 const POLYGON_HEAD: usize = 44;
 
-/// Reads the bytes of a main file; `projection` is the text of the `.prj` where there is one.
+/// Reads the bytes of a main file; `projection` is the text of the `.prj` file, if any.
 pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Vec<Refusal>> {
     let refuse = |place: &str, found: String, expected: &str| {
         vec![Refusal { place: place.into(), found, expected: expected.into() }]
@@ -135,8 +135,8 @@ fn number(bytes: &[u8], at: usize) -> Option<f64> {
 const PROJECTED: &str =
     "a projected system (PROJCS) with a unit of length: project the shapes, or remove the .prj and give `unit`";
 
-/// The unit of a coordinate system in well-known text: the last `UNIT` (or `LENGTHUNIT`) of a projected or local system, since that of
-/// its geographic base, an angle, comes before.
+/// The unit of a coordinate system in well-known text: the last `UNIT` (or `LENGTHUNIT`) of a projected or local system, since that of its geographic base,
+/// an angle, comes before.
 fn unit_of(projection: &str) -> Result<Unit, String> {
     let text = projection.trim();
     let kind: String = text.chars().take_while(|c| c.is_alphanumeric()).collect::<String>().to_ascii_uppercase();

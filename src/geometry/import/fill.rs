@@ -1,6 +1,6 @@
-//! What a set of rings fills where they cross: their union by the fill rule, for straight edges by the boolean operations of crate `geo`.
+//! The area filled by crossing rings: their union by the fill rule, for straight edges by the boolean operations of crate `geo`.
 //!
-//! Those work on integers inside, so that rings that do not cross are not sent there and keep every bit.
+//! These use integers internally, so that rings that do not cross bypass them and stay exact.
 
 use geo::algorithm::bool_ops::{self, BooleanOps, OpType};
 use geo::{Area, LineString, MultiPolygon, Polygon};
@@ -14,13 +14,13 @@ use crate::geometry::intersect::meeting_places;
 use crate::geometry::rings::faults;
 use crate::math::{Bounds, Vec2};
 
-/// Areas that agree to this share of that of their box are the same after the boolean operations.
+/// Relative tolerance of areas after boolean operations, over the area of the box.
 const SAME_AREA: f64 = 1e-7;
 
-/// The regions that rings fill which may cross each other and themselves.
+/// The regions filled by rings that may cross each other and themselves.
 ///
 /// # Errors
-/// A message where arcs cross and no union says what is filled.
+/// A message if arcs cross, for which there is no union.
 pub(crate) fn filled(rings: &[Ring], rule: FillRule, tolerance: f64) -> Result<Vec<Region>, String> {
     let Some((ring, at)) = crossing(rings, tolerance) else { return Ok(regions(rings, rule)) };
     if rings.iter().all(Ring::is_straight) {
@@ -29,13 +29,13 @@ pub(crate) fn filled(rings: &[Ring], rule: FillRule, tolerance: f64) -> Result<V
     let turns_alike = rings.iter().all(|r| (r.area() > 0.0) == (rings[0].area() > 0.0));
     let each_is_simple = rings.iter().all(|r| crossing(std::slice::from_ref(r), tolerance).is_none());
     if rule == FillRule::NonZero && turns_alike && each_is_simple {
-        // Shapes of a file are united later, arcs and all.
+        // Shapes of a file are united later, including arcs.
         return Ok(rings.iter().map(|ring| (ring.clone(), Vec::new())).collect());
     }
     Err(format!("curved outlines that cross: ring {ring} at ({:e}, {:e})", at.x, at.y))
 }
 
-/// The first edge, by ring, that meets another one away from a shared vertex.
+/// The first edge, by ring, that intersects another one away from a shared vertex.
 fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
     struct Edge {
         ring: usize,
@@ -63,10 +63,10 @@ fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
                 continue;
             }
             for (one, other) in [(a, b), (b, a)] {
-                let mut places = Vec::new();
-                meeting_places(&one.curve, &other.curve, tolerance, &mut places);
+                let mut parameters = Vec::new();
+                meeting_places(&one.curve, &other.curve, tolerance, &mut parameters);
                 let end = tolerance / one.curve.length();
-                if let Some(&u) = places.iter().find(|u| end < **u && **u < 1.0 - end) {
+                if let Some(&u) = parameters.iter().find(|u| end < **u && **u < 1.0 - end) {
                     let here = (one.ring, one.number, one.curve.point(u));
                     if found.is_none_or(|known| (here.0, here.1) < (known.0, known.1)) {
                         found = Some(here);
@@ -78,8 +78,8 @@ fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
     found.map(|(ring, _, at)| (ring, at))
 }
 
-/// A region whose rings touch or run along each other, or along themselves as at a slit of no width, as regions that do not; itself where
-/// it is sound, curved, or more is wrong with it: its area stays the same.
+/// A region whose rings touch or coincide along lines, as at a slit of zero width, as regions that do not; unchanged if it is valid, curved, or has other
+/// faults: its area is preserved.
 pub(crate) fn without_slits((outer, holes): Region) -> Vec<Region> {
     let turned = |ring: &Ring, ccw: bool| if (ring.area() > 0.0) == ccw { ring.clone() } else { ring.reversed() };
     let rings: Vec<Ring> =
@@ -105,7 +105,7 @@ fn united(rings: &[Ring], rule: FillRule) -> Result<Vec<Region>, String> {
     };
     let union = all.boolean_op_with_fill_rule(&MultiPolygon::<f64>::new(Vec::new()), OpType::Union, rule);
     let (area, most) = (union.unsigned_area(), rings.iter().map(bounding_area).sum::<f64>());
-    // Integers inside: what they make of coordinates must not be more than there was.
+    // Conversion to integers and back must not increase the area.
     if !(area.is_finite() && area <= most * (1.0 + 1e-9)) {
         return Err(format!("outlines that cross, whose union comes out with the area {area:e}"));
     }

@@ -1,11 +1,11 @@
-//! The formats of shape files, told by the ending of the name.
+//! The formats of shape files, by file extension.
 
 use std::path::Path;
 
 /// A format of shape files of other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// Our own shape files, which the case reader reads.
+    /// Our own shape files, read by the case reader.
     Toml,
     /// Lists of discs.
     List,
@@ -23,7 +23,7 @@ pub(crate) enum Format {
     Mask,
 }
 
-/// Each format in order: how messages call a file of it, and the endings of names.
+/// Each format in order: its name in messages, and its file extensions.
 const FORMATS: [(Format, &str, &[&str]); 8] = [
     (Format::Toml, "a TOML shape file", &["toml"]),
     (Format::List, "a list of discs", &["xyr", "discs", "txt", "csv"]),
@@ -36,13 +36,13 @@ const FORMATS: [(Format, &str, &[&str]); 8] = [
 ];
 
 impl Format {
-    /// The format that the ending of a file's name says.
+    /// The format of a file, by its extension.
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         FORMATS.iter().find(|known| known.2.contains(&ending.as_str())).map(|known| known.0)
     }
 
-    /// How messages call a file of this format.
+    /// The name of the format in messages.
     pub(crate) fn name(self) -> &'static str {
         FORMATS[self as usize].1
     }

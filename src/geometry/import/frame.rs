@@ -1,19 +1,19 @@
-//! The frame of a chip: an upright rectangle without fill around most of the other shapes. Its inside is the pore.
-//! One filled shape in it is enough; outlines without fill must be some. A rectangle on the layer `domain` is the domain.
+//! The frame of a chip: an upright rectangle without fill around most of the other shapes. Its inside is the pore. It must enclose at least one filled shape,
+//! or several outlines without fill. A rectangle on the layer `domain` is the domain.
 //!
-//! A rectangle on the layer of outlines without fill that it encloses may as well be a plate with holes, as outlines that are not filled
-//! nest: it stays, and a note names it.
+//! A rectangle on the same layer as the unfilled outlines inside it may also be a plate with holes, by the nesting of unfilled outlines: it is kept, and a
+//! note names it.
 
 use crate::geometry::import::drawing::{Entity, Outline, Paint, Ring};
 use crate::geometry::import::notes::Notes;
 use crate::math::{Bounds, Vec2};
 
-/// The layer of the rectangle that is the domain.
+/// The layer of the rectangle that defines the domain.
 pub(crate) const DOMAIN: &str = "domain";
-/// A frame encloses so many outlines without fill at least, or a filled one.
+/// Minimum number of unfilled outlines that a frame encloses, unless it encloses a filled one.
 const FEWEST: usize = 3;
 
-/// Takes the frame out of the outlines, with a note; its box is the domain where the file names none.
+/// Removes the frame from the outlines, with a note; its box is the domain unless the file names one.
 pub(crate) fn taken_out(outlines: &mut Vec<Entity>, notes: &mut Notes) -> Option<Bounds> {
     let boxes: Vec<Bounds> = outlines.iter().map(bounds).collect();
     let is_domain = |one: &Entity| {
@@ -33,21 +33,21 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, notes: &mut Notes) -> Option
     let others = outlines.len() - 1;
     let is_filled = |i: usize| outlines[i].paint == Paint::Filled;
     let fewest = if inside.iter().any(|&i| is_filled(i)) { 1 } else { FEWEST };
-    // Within a filled shape it is a hole.
+    // Inside a filled shape it is a hole.
     let is_hole = (0..outlines.len()).any(|i| i != largest && is_filled(i) && is_in(&boxes[i], &boxes[largest]));
     if inside.len() < fewest || 2 * inside.len() <= others || is_hole {
         return None;
     }
     let (place, paint) = (outlines[largest].place.clone(), &outlines[largest].paint);
-    let told = format!("{place}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
+    let found = format!("{place}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
     if inside.iter().any(|&i| outlines[i].paint == *paint) {
         notes.add(format!(
-            "{told} on its own layer: it is read as solid, with them as holes. If it is the frame of the chip, put it on a layer of its own."
+            "{found} on its own layer: it is read as solid, with them as holes. If it is the frame of the chip, put it on a layer of its own."
         ));
         return None;
     }
     notes.add(format!(
-        "{told}: it is read as the frame of the chip, whose inside is the pore. If it is solid, give it a fill."
+        "{found}: it is read as the frame of the chip, whose inside is the pore. If it is solid, give it a fill."
     ));
     outlines.remove(largest);
     Some(boxes[largest])
@@ -67,7 +67,7 @@ fn is_in(outer: &Bounds, inner: &Bounds) -> bool {
     outer.contains(inner.min) && outer.contains(inner.max)
 }
 
-/// Whether an outline fills its upright box.
+/// Whether an outline fills its bounding box.
 fn is_rectangle(outline: &Outline) -> bool {
     let Outline::Area { rings, .. } = outline else { return false };
     let [ring] = &rings[..] else { return false };

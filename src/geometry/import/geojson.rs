@@ -1,8 +1,7 @@
 //! GeoJSON: polygons, multipolygons and collections of these; points with a property `radius` are discs.
 //!
-//! RFC 7946 gives coordinates in degrees of longitude and latitude. A pore is not measured in degrees: the unit must be said, by the key or a
-//! member `unit` of the file; a member `domain` sets the domain, and what
-//! names another coordinate reference system is told.
+//! RFC 7946 gives coordinates in degrees of longitude and latitude, which are meaningless for a pore: the unit must be given by the key or a member `unit` of
+//! the file; a member `domain` sets the domain, and another coordinate reference system is mentioned in a note.
 
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
@@ -40,7 +39,7 @@ struct Reader {
     bad: Vec<Refusal>,
 }
 
-/// Members beside the geometry: `crs` of the former standard, `unit` and `domain` as this program writes them.
+/// Members besides the geometry: `crs` of the former standard, `unit` and `domain` as written by this program.
 #[derive(serde::Deserialize, Default)]
 struct Members {
     crs: Option<serde_json::Value>,

@@ -1,7 +1,6 @@
-//! The header of a list of discs: which column holds x, y and the size, and in which unit, by the names of the columns.
+//! The header of a list of discs: the columns of x, y and the size, and their unit, by the names of the columns.
 //!
-//! A name is that of a quantity with its unit behind it or none: `x`, `x_um`, `x [um]`, `x (um)`, `x/um`. A header may also be a comment, as
-//! in `# x y r in mm`.
+//! A name is that of a quantity with an optional unit: `x`, `x_um`, `x [um]`, `x (um)`, `x/um`. A header may also be a comment, such as `# x y r in mm`.
 
 use crate::geometry::import::drawing::Unit;
 use crate::geometry::import::options::Options;
@@ -14,7 +13,7 @@ const NAMES: [&[&str]; 4] = [
     &["r", "rad", "radius", "radii"],
     &["d", "diam", "dia", "diameter", "diameters"],
 ];
-/// Names of units beside those that keys know.
+/// Names of units besides those of keys.
 const UNITS: [(&str, &str); 8] = [
     ("micron", "um"),
     ("microns", "um"),
@@ -27,18 +26,18 @@ const UNITS: [(&str, &str); 8] = [
 ];
 const DIAMETER: usize = 3;
 
-/// What a header says.
+/// The content of a header.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Header {
     /// The columns of x, y and the size, from 0.
     pub(crate) columns: [usize; 3],
-    /// The unit of all three, where they have one.
+    /// The common unit of all three, if any.
     pub(crate) unit: Option<Unit>,
     /// Whether the size is named as a diameter.
     pub(crate) is_diameter: bool,
 }
 
-/// A column by its name: the index of its quantity in `NAMES`, and what stands for its unit.
+/// A column name: the index of its quantity in `NAMES`, and the text of its unit.
 struct Column<'t> {
     quantity: Option<usize>,
     unit: Option<&'t str>,
@@ -66,7 +65,7 @@ impl Header {
         Ok(Self { columns, unit, is_diameter })
     }
 
-    /// The header that a comment is: one that begins with the names of x, y and a size in any order; a unit may follow.
+    /// The header given by a comment that starts with the names of x, y and a size in any order; a unit may follow.
     pub(crate) fn of_comment(comment: &str, options: &Options) -> Option<Result<Self, String>> {
         let text = comment.trim_start_matches('#').trim();
         let cells = cells(text, options.separator);
@@ -85,7 +84,7 @@ impl Header {
     }
 }
 
-/// The cells of a header: separated as the user says, else by commas, semicolons and tabs, else by spaces.
+/// The cells of a header, separated by the given character, else by commas, semicolons and tabs, else by spaces.
 pub(crate) fn cells(text: &str, separator: Option<char>) -> Vec<&str> {
     let is_mark = |c: char| separator.map_or(matches!(c, ',' | ';' | '\t'), |separator| c == separator);
     if text.contains(is_mark) {
@@ -94,7 +93,7 @@ pub(crate) fn cells(text: &str, separator: Option<char>) -> Vec<&str> {
     // A unit in brackets belongs to the name before it.
     let mut found: Vec<&str> = Vec::new();
     let mut from = 0;
-    // Of spaces in a row the first one decides.
+    // Of consecutive spaces the first one decides.
     let gaps = text.match_indices(char::is_whitespace).filter(|(at, _)| !text[..*at].ends_with(char::is_whitespace));
     for (at, _) in gaps.chain([(text.len(), "")]) {
         let rest = text[at..].trim_start();
@@ -140,7 +139,7 @@ fn by_name(columns: &[Column]) -> Result<[usize; 3], String> {
 
 fn unit_by_name(name: &str) -> Option<Unit> {
     let name = UNITS.iter().find(|known| known.0 == name).map_or(name, |known| known.1);
-    // A pixel of an image is not that of a page.
+    // A pixel of an image differs from that of a page.
     units::by_name(name).filter(|_| name != "px")
 }
 

@@ -1,14 +1,14 @@
-//! What keeps a small file from becoming a huge drawing: copies of copies, declared counts, coordinates out of all bounds.
+//! Limits that keep a small file from expanding to a huge drawing: nested copies, declared counts, extreme coordinates.
 
 use crate::math::Vec2;
 
-/// The largest coordinate in size, in any unit: a hundred times the diameter of the observable universe in nm. Its square is still a
-/// number, so that no length derived from it overflows.
+/// The largest magnitude of a coordinate, in any unit: a hundred times the diameter of the observable universe in nm. Its square is finite, so that no length
+/// derived from it overflows.
 const LARGEST_COORDINATE: f64 = 1e38;
-/// Items that a file of any size may hold; each takes about 100 bytes.
+/// Number of items allowed for a file of any size; each takes about 100 bytes.
 const FREE_ITEMS: usize = 500_000;
 
-/// How many more items, shapes and vertices alike, a file may unfold into.
+/// The remaining number of items, shapes and vertices alike, that a file may expand to.
 #[derive(Debug)]
 pub(crate) struct Budget {
     left: usize,
@@ -22,7 +22,7 @@ impl Budget {
         Self { left: total, total }
     }
 
-    /// Takes `items` away; false once there are not that many.
+    /// Subtracts `items`; false if fewer are left.
     pub(crate) fn spend(&mut self, items: usize) -> bool {
         match self.left.checked_sub(items) {
             Some(left) => {
@@ -33,13 +33,13 @@ impl Budget {
         }
     }
 
-    /// All items that the file could unfold into.
+    /// The total number of items that the file could expand to.
     pub(crate) fn total(&self) -> usize {
         self.total
     }
 }
 
-/// Whether a point can be computed with.
+/// Whether the coordinates of a point are in range.
 pub(crate) fn is_in_range(x: Vec2) -> bool {
     x.x.abs() <= LARGEST_COORDINATE && x.y.abs() <= LARGEST_COORDINATE
 }

@@ -1,8 +1,8 @@
-//! Lists of discs: `x y r` per line, separated by spaces, tabs, commas or semicolons. A header names columns and unit: other orders, and
-//! longer lines, are read by it.
+//! Lists of discs: `x y r` per line, separated by spaces, tabs, commas or semicolons. A header names columns and unit, and permits other orders and longer
+//! lines.
 //!
-//! `columns` picks x, y and radius out of longer lines, and `separator` names the one character that separates them, so that empty
-//! columns and names with spaces keep their places. With `diameters` the third number is a diameter; a header that names one asks for it.
+//! `columns` selects x, y and radius in longer lines, and `separator` sets a single separating character, so that empty columns and names with spaces keep
+//! their positions. With `diameters` the third number is a diameter; a header that names a diameter requires it.
 
 use crate::geometry::import::drawing::{Drawing, Entity, Outline, Paint, Refusal};
 use crate::geometry::import::header::{Header, cells};
@@ -50,7 +50,7 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
     if lines.bad.is_empty() { Ok(drawing) } else { Err(lines.bad) }
 }
 
-/// Whether the columns that hold x, y and radius, or any of a line of others, are numbers.
+/// Whether the columns of x, y and radius, or any column of other lines, are numbers.
 fn has_number(data: &str, options: &Options) -> bool {
     let all: Vec<&str> = match options.separator {
         Some(separator) => data.split(separator).map(str::trim).collect(),
@@ -63,7 +63,7 @@ fn has_number(data: &str, options: &Options) -> bool {
     }
 }
 
-/// A header that says what is needed; `None`, and a line refused, where it does not.
+/// A sufficient header; else `None`, with the line refused.
 fn taken(
     header: Result<Header, String>,
     (line, row): (usize, &str),
@@ -82,7 +82,7 @@ fn taken(
     None
 }
 
-/// The columns of a line that hold x, y and radius; `None` where the line has others beside the three and nobody picks.
+/// The columns of a line for x, y and radius; `None` if the line has more than three and none are selected.
 struct Columns<'t>(Option<[&'t str; 3]>);
 
 impl<'t> Columns<'t> {

@@ -1,7 +1,7 @@
-//! Drawings of other programs.
+//! Import of drawings of other programs.
 //!
-//! Each reader turns a file into a [`Drawing`](drawing::Drawing) in the file's own unit; what follows is the same for all: unit
-//! ([`options`]), fills and holes, circles and arcs behind polygons, domain (`build`), what a [`window`] leaves out, and [`cut`]s at its sides.
+//! Each reader converts a file to a [`Drawing`](drawing::Drawing) in the file's own unit; the rest is common to all: unit ([`options`]), fills and holes,
+//! circles and arcs behind polygons, domain (`build`), clipping to a [`window`], and [`cut`]s at its sides.
 
 pub(crate) mod affine;
 pub(crate) mod biarc;

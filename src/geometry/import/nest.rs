@@ -1,18 +1,18 @@
-//! Which rings are outer ones and which are holes: told by what contains what, never by direction alone.
+//! Classification of rings as outer ones and holes, by containment, never by orientation alone.
 //!
-//! A ring bounds the filled points where the fill rule says otherwise on its two sides. Containment is that of a point well inside the
-//! ring, in rings of larger area: rings are taken not to cross, but may touch and run along each other, wherever they begin. A vertical
-//! ray from that point meets edges sorted by x, so that the cost is that of the edges near in x.
+//! A ring bounds the filled area if the fill rule differs on its two sides. Containment is that of a point well inside the ring, in rings of larger area:
+//! rings must not cross, but may touch and coincide along lines, wherever they start. A vertical ray from that point is tested against edges sorted by x, so
+//! that only edges near in x contribute to the cost.
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{FillRule, Ring};
 use crate::math::{Bounds, Vec2};
 
-/// Areas and sides of boxes that agree to this share are the same.
+/// Relative tolerance of areas and of sides of boxes.
 const SAME: f64 = 1e-9;
 
-/// Where the upright line stands in the box of a ring, as a share of its width: no middle of symmetry, on which vertices lie.
+/// Position of the vertical line in the box of a ring over its width: off the symmetry axes, on which vertices lie.
 const ACROSS: f64 = 0.4871;
 
 /// An outer ring and its holes, as indices into the rings.
@@ -24,7 +24,7 @@ pub(crate) struct Nested {
     pub(crate) holes: Vec<usize>,
 }
 
-/// Groups rings that do not cross; rings within a filled area are left out under [`FillRule::NonZero`]. Ordered by outer ring.
+/// Groups rings that do not cross; rings inside a filled area are omitted under [`FillRule::NonZero`]. Ordered by outer ring.
 pub(crate) fn nested(rings: &[Ring], rule: FillRule) -> Vec<Nested> {
     let containing = containing(rings);
     let sign = |i: usize| if rings[i].area() > 0.0 { 1 } else { -1 };
@@ -36,27 +36,27 @@ pub(crate) fn nested(rings: &[Ring], rule: FillRule) -> Vec<Nested> {
             FillRule::NonZero => all.map(|i| signs[i]).sum::<i64>() != 0,
         }
     };
-    // Filled outside and inside of each ring.
+    // Whether the outside and the inside of each ring are filled.
     let sides: Vec<(bool, bool)> =
         (0..rings.len()).map(|i| (is_filled(&containing[i], None), is_filled(&containing[i], Some(i)))).collect();
     let mut found: Vec<Nested> = Vec::new();
-    let mut place = vec![usize::MAX; rings.len()];
+    let mut index = vec![usize::MAX; rings.len()];
     for i in (0..rings.len()).filter(|&i| sides[i] == (false, true)) {
-        place[i] = found.len();
+        index[i] = found.len();
         found.push(Nested { outer: i, holes: Vec::new() });
     }
     for i in (0..rings.len()).filter(|&i| sides[i] == (true, false)) {
-        // The innermost outer ring around it: the one that most others contain.
+        // The innermost enclosing outer ring: the one contained in most others.
         let parent =
-            containing[i].iter().copied().filter(|&j| place[j] != usize::MAX).max_by_key(|&j| containing[j].len());
+            containing[i].iter().copied().filter(|&j| index[j] != usize::MAX).max_by_key(|&j| containing[j].len());
         if let Some(parent) = parent {
-            found[place[parent]].holes.push(i);
+            found[index[parent]].holes.push(i);
         }
     }
     found
 }
 
-/// For each ring those that contain it, by index.
+/// For each ring the indices of those that contain it.
 fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
     let mut around = vec![Vec::new(); rings.len()];
     if rings.len() < 2 {
@@ -69,7 +69,7 @@ fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
         rings.iter().enumerate().filter_map(|(i, ring)| Some((inner_point(ring, &boxes[i])?, i))).collect();
     starts.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.1.cmp(&b.1)));
     for (j, ring) in rings.iter().enumerate() {
-        // Whether each start lies above an odd number of edges of this ring: toggled edge by edge.
+        // Parity of the edges of this ring below each start, toggled edge by edge.
         let mut toggled: Vec<usize> = Vec::new();
         for span in spans_of(ring) {
             let from = starts.partition_point(|start| start.0.x < span.x.0);
@@ -90,7 +90,7 @@ fn encloses(outer: &Bounds, inner: &Bounds) -> bool {
     (0..2).all(|i| outer.min[i] <= inner.min[i] && inner.max[i] <= outer.max[i])
 }
 
-/// A point inside of a ring: the middle of its longest part on an upright line through its box.
+/// A point inside a ring: the midpoint of its longest section on a vertical line through its box.
 fn inner_point(ring: &Ring, bounds: &Bounds) -> Option<Vec2> {
     let x = bounds.min.x + ACROSS * bounds.size().x;
     let hit = spans_of(ring).filter(|span| span.x.0 <= x && x < span.x.1);
@@ -130,8 +130,7 @@ impl Span {
     }
 }
 
-/// The pieces of a curve that have one height over each x. It begins and ends at `ends`, equal to those of its neighbors to the last
-/// bit, so that no gap is left between them.
+/// The pieces of a curve that are graphs over x. It starts and ends at `ends`, bitwise equal to those of its neighbors, so that there are no gaps.
 fn spans(curve: &Curve, ends: [f64; 2]) -> Vec<Span> {
     match *curve {
         Curve::Segment { a, b } => {
@@ -244,7 +243,7 @@ mod tests {
 
     #[test]
     fn a_small_ring_in_the_dent_of_an_arc_is_not_inside() {
-        // The right side is a half circle that comes in.
+        // The right side is an inward half circle.
         let dented = Ring { vertices: vec![[0.0, 0.0, 0.0], [4.0, 0.0, -1.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]] };
         assert_eq!(nested(&[dented.clone(), disc([3.0, 2.0], 0.1)], FillRule::EvenOdd).len(), 2);
         assert_eq!(nested(&[dented, disc([1.0, 2.0], 0.1)], FillRule::EvenOdd).len(), 1);

@@ -1,10 +1,10 @@
-//! Ends of lines that are one point.
+//! Coincident ends of lines.
 
 use std::collections::BTreeMap;
 
 use crate::math::Vec2;
 
-/// Points that are the same within a gap, numbered in the order in which they come.
+/// Points that coincide within a gap, numbered in order of appearance.
 pub(crate) struct Nodes {
     gap: f64,
     /// The points.
@@ -13,15 +13,15 @@ pub(crate) struct Nodes {
 }
 
 impl Nodes {
-    /// No points yet.
+    /// An empty set of points.
     pub(crate) fn new(gap: f64) -> Self {
-        // Any positive width keeps equal points together where all lie in one.
+        // Any positive width keeps equal points together if all coincide.
         Self { gap: gap.max(f64::MIN_POSITIVE), points: Vec::new(), cells: BTreeMap::new() }
     }
 
     /// The number of a point.
     pub(crate) fn number(&mut self, x: Vec2) -> usize {
-        // Cells of twice the gap: a point within it lies in the same cell or in one beside it. The cast saturates.
+        // Cells of twice the gap: a coincident point lies in the same cell or in an adjacent one. The cast saturates.
         let cell = |v: f64| (v / (2.0 * self.gap)).floor() as i64;
         let [i, j] = [cell(x.x), cell(x.y)];
         for di in -1..=1 {

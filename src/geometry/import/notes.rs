@@ -1,4 +1,4 @@
-//! What is said of a drawing that was read, in few lines: unit, counts, repairs, what was not used, domain.
+//! Notes on a drawing, in few lines: unit, counts, repairs, unused entities, domain.
 
 use std::fmt::Display;
 
@@ -7,7 +7,7 @@ use crate::geometry::import::options::Options;
 use crate::geometry::spec::ShapeSpec;
 use crate::math::Bounds;
 
-/// What happened to the shapes of a drawing.
+/// Statistics of the conversion of a drawing.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Counts {
     discs: usize,
@@ -19,9 +19,9 @@ pub(crate) struct Counts {
     smoothed: usize,
     /// Areas of the smoothed rings before and after.
     areas: [f64; 2],
-    /// Doubled vertices taken out.
+    /// Number of duplicate vertices removed.
     pub(crate) doubled: usize,
-    /// Rings that enclose nothing.
+    /// Number of rings of zero area.
     pub(crate) without_area: usize,
     /// Shapes outside of the window.
     pub(crate) outside: usize,
@@ -35,7 +35,7 @@ impl Counts {
         self.areas[1] += after.abs();
     }
 
-    /// Counts the shapes that are left in the end.
+    /// Counts the final shapes.
     pub(crate) fn shapes<'s>(&mut self, shapes: impl Iterator<Item = &'s ShapeSpec>) {
         for shape in shapes {
             match shape {
@@ -54,10 +54,10 @@ impl Counts {
     }
 }
 
-/// The notes of a drawing as they come together.
+/// The notes of a drawing in preparation.
 #[derive(Debug)]
 pub(crate) struct Notes {
-    /// What happened to its shapes.
+    /// Statistics of its shapes.
     pub(crate) counts: Counts,
     first: Vec<String>,
     unused: Vec<String>,
@@ -66,7 +66,7 @@ pub(crate) struct Notes {
 }
 
 impl Notes {
-    /// Begins with the unit and what the reader says.
+    /// Starts with the unit and the notes of the reader.
     pub(crate) fn new(unit: String, drawing: &Drawing) -> Self {
         let count = |(kind, number): (&String, &usize)| format!("{kind} ({number})");
         let mut first = vec![unit];
@@ -77,7 +77,7 @@ impl Notes {
         Self { counts: Counts::default(), first, unused, of_reader: drawing.notes.clone(), domain: String::new() }
     }
 
-    /// What was read and is not used.
+    /// Entities that were read but not used.
     pub(crate) fn unused(&self) -> String {
         let mut unused = self.unused.clone();
         if self.counts.without_area > 0 {
@@ -86,12 +86,12 @@ impl Notes {
         if unused.is_empty() { "nothing".into() } else { unused.join(", ") }
     }
 
-    /// Adds a sentence behind those of the reader.
+    /// Adds a sentence after those of the reader.
     pub(crate) fn add(&mut self, sentence: String) {
         self.of_reader.push(sentence);
     }
 
-    /// Tells the domain, and where it comes from.
+    /// Reports the domain, and its origin.
     pub(crate) fn domain(&mut self, domain: Bounds, from: &str) {
         let size = domain.size();
         self.domain = format!("domain {:.4e} x {:.4e} m, {from}", size.x, size.y);

@@ -1,4 +1,4 @@
-//! What a user says of a drawing beside its name: unit, window, layers, how masks and lists are read. All keys are optional.
+//! User options for a drawing: unit, window, layers, reading of masks and lists. All keys are optional.
 
 use serde::Deserialize;
 
@@ -9,55 +9,55 @@ use crate::input::Range;
 use crate::input::problem::Problem;
 use crate::input::tables::Key;
 
-/// Vertices that turn by less than this many degrees belong to a smooth curve.
+/// Vertices with smaller angles than this, in degrees, belong to a smooth curve.
 pub(crate) const SMOOTH_BELOW_DEG: f64 = 20.0;
 
 /// Length of the drawing unit.
 pub(crate) const SCALE: Key = Key::positive("a length in m");
-/// Distance of ends that meet.
+/// Distance within which ends are joined.
 pub(crate) const JOIN_WITHIN: Key = Key::positive("a length in units of the drawing")
     .help("leave it out to join ends that meet within 1e-6 of the drawing");
-/// Gray value between solid and pore.
+/// Gray value that separates solid from pore.
 pub(crate) const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle");
 /// Side of a pixel.
 pub(crate) const PIXEL_SIZE: Key = SCALE;
-/// Turn of a smooth vertex.
+/// Angle of a smooth vertex.
 pub(crate) const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
 
-/// Keys of `[geometry]` beside `file`, and options of the command line.
+/// Keys of `[geometry]` besides `file`, and options of the command line.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// Name of the drawing unit, as in `mm`.
     pub unit: Option<String>,
-    /// Length of the drawing unit in m, in place of `unit`.
+    /// Length of the drawing unit in m, instead of `unit`.
     pub scale: Option<f64>,
     /// Lower left and upper right corner of the domain in m.
     pub window: Option<[[f64; 2]; 2]>,
-    /// Layers to read; all where there is none.
+    /// Layers to read; all by default.
     pub layers: Option<Vec<String>>,
-    /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing.
+    /// Distance within which ends of lines of a DXF drawing are joined, in units of the drawing.
     pub join_within: Option<f64>,
-    /// Gray value between solid and pore, 0 (black) to 1 (white).
+    /// Gray value that separates solid from pore, 0 (black) to 1 (white).
     pub threshold: Option<f64>,
     /// Side of a pixel in m.
     pub pixel_size: Option<f64>,
-    /// Whether what is drawn is the pore and all else solid.
+    /// Whether the drawn shapes are the pore and all else solid.
     pub invert: Option<bool>,
     /// Whether polygons whose vertices lie on a circle become discs (default yes).
     pub recognize_circles: Option<bool>,
-    /// Vertices that turn by less than this many degrees are taken for points of a smooth curve; 0: none.
+    /// Vertices with smaller angles than this, in degrees, are points of a smooth curve; 0: none.
     pub smooth_below_deg: Option<f64>,
     /// Columns of x, y and radius in a list, counted from 0.
     pub columns: Option<[usize; 3]>,
-    /// What separates the columns of a list.
+    /// Separator of the columns of a list.
     pub separator: Option<char>,
     /// Whether the third column of a list holds diameters (default no).
     pub diameters: Option<bool>,
 }
 
 impl Options {
-    /// Whether what is drawn is the pore.
+    /// Whether the drawn shapes are the pore.
     pub(crate) fn is_inverted(&self) -> bool {
         self.invert.unwrap_or(false)
     }
@@ -67,22 +67,22 @@ impl Options {
         self.recognize_circles.unwrap_or(true)
     }
 
-    /// The largest turn of a smooth vertex in rad.
+    /// The largest angle of a smooth vertex in rad.
     pub(crate) fn smooth_below(&self) -> f64 {
         self.smooth_below_deg.unwrap_or(SMOOTH_BELOW_DEG).to_radians()
     }
 
-    /// Length of the drawing unit in m, and a note on where it comes from: the user, else the file, else the key is asked for.
+    /// Length of the drawing unit in m, and a note on its origin: the user, else the file, else the key is required.
     ///
     /// # Errors
-    /// The key that is missing.
+    /// The missing key.
     pub(crate) fn length_of_unit(&self, drawing: &Drawing, format: Format) -> Result<(f64, String), Problem> {
         if let Some(size) = self.pixel_size {
             return Ok((size, format!("1 pixel = {size:e} m (pixel-size)")));
         }
         let of_file: Option<&Unit> = drawing.unit.as_ref();
         let instead = |meters: f64| match of_file {
-            // Names of one length differ, and lengths by rounding.
+            // Units of the same length have different names, and lengths differ by rounding.
             Some(unit) if (unit.meters / meters - 1.0).abs() > 1e-9 => format!(", not {} as the file says", unit.name),
             _ => String::new(),
         };
@@ -102,7 +102,7 @@ impl Options {
         Err(Problem::new("unit", message, "add `unit = \"mm\"`, say, or `scale`, the length of the drawing unit in m"))
     }
 
-    /// All that is wrong with the options for a file of this format; the paths are keys, such as `unit`.
+    /// All problems of the options for a file of this format; the paths are keys, such as `unit`.
     pub(crate) fn problems(&self, format: Format) -> Vec<Problem> {
         let mut found = self.problems_of_values();
         let mut misplaced = |key: &str, is_given: bool, belongs: &[Format], of: &str| {

@@ -1,7 +1,7 @@
-//! Outlines without fills that cross each other, as in DXF: united, or a hole that overshoots.
+//! Unfilled outlines that cross each other, as in DXF: united, or a hole that overshoots.
 //!
-//! Of two outlines that cross, the smaller one is a hole in the larger one, or an island in a hole, where it lies in it for the most part; what
-//! overshoots of it is left out. Else both are united.
+//! Of two outlines that cross, the smaller one is a hole in the larger one, or an island in a hole, if most of it lies inside; the overshooting part is cut
+//! off. Otherwise both are united.
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
@@ -12,19 +12,19 @@ use crate::geometry::import::notes::Notes;
 use crate::geometry::rings::{crossings, faults};
 use crate::math::Vec2;
 
-/// Share of the smaller outline within the larger one above which it is a hole.
+/// Fraction of the smaller outline inside the larger one above which it is a hole.
 const HOLE: f64 = 0.5;
-/// Lengths below this share of the size of the drawing count as none where outlines meet.
+/// Lengths below this fraction of the size of the drawing count as zero at intersections.
 const TOLERANCE: f64 = 1e-9;
-/// So often outlines are united and cut until none cross.
+/// Maximum number of rounds of uniting and cutting outlines until none cross.
 const ROUNDS: usize = 4;
-/// So many places are named in a note.
+/// Maximum number of source locations in a note.
 const NAMED: usize = 3;
 
-/// A ring and where it stands.
+/// A ring and its source location.
 pub(crate) type Placed = (Ring, String);
 
-/// The rings without crossings; notes say what was done.
+/// The rings without crossings; notes describe the changes.
 pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<Placed> {
     let size = rings.iter().map(|(ring, _)| ring.bounds()).reduce(|a, b| a.united(&b)).map_or(0.0, |b| b.size().max());
     let tolerance = TOLERANCE * size;
@@ -47,7 +47,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
             }
         }
         let mut changed: Vec<Option<Vec<Placed>>> = vec![None; rings.len()];
-        // What is united may lie otherwise in the outlines around it: those wait for the next round.
+        // United outlines may be nested differently: the outlines around them wait for the next round.
         for group in groups(&together, rings.len()) {
             let parts: Vec<Solid> =
                 group.iter().filter_map(|&i| Solid::of(&(rings[i].0.clone(), Vec::new()))).collect();
@@ -75,7 +75,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         let with = rings.into_iter().zip(changed);
         rings = with.flat_map(|(ring, new)| new.unwrap_or_else(|| vec![ring])).collect();
     }
-    for (places, told) in [
+    for (places, text) in [
         (united, "outlines that overlap are united"),
         (
             holes,
@@ -85,7 +85,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         if !places.is_empty() {
             let more = if places.len() > NAMED { ", ..." } else { "" };
             let named = places.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
-            notes.add(format!("{} {told}: {named}{more}.", places.len()));
+            notes.add(format!("{} {text}: {named}{more}.", places.len()));
         }
     }
     rings
@@ -97,7 +97,7 @@ fn refusal(rings: &[Placed], [a, b]: [usize; 2], at: Vec2) -> Refusal {
     Refusal::new(rings[a].1.clone(), found, "outlines that cross or keep apart: unite or subtract them in the drawing")
 }
 
-/// Pairs of rings, each sound by itself, that cross.
+/// Pairs of rings, each valid by itself, that cross.
 fn crossing_pairs(rings: &[Placed]) -> Vec<([usize; 2], Vec2)> {
     let curves: Vec<Vec<Curve>> = rings.iter().map(|(ring, _)| bulged_ring(&ring.vertices).collect()).collect();
     let pairs = crossings(&curves);
@@ -105,7 +105,7 @@ fn crossing_pairs(rings: &[Placed]) -> Vec<([usize; 2], Vec2)> {
     pairs.into_iter().filter(|([a, b], _)| is_sound(*a) && is_sound(*b)).collect()
 }
 
-/// Rings that belong together by their pairs, two or more in each group.
+/// Connected groups of rings by their pairs, two or more in each group.
 fn groups(pairs: &[[usize; 2]], count: usize) -> Vec<Vec<usize>> {
     let mut first: Vec<usize> = (0..count).collect();
     let find = |first: &[usize], mut i: usize| {
@@ -124,7 +124,7 @@ fn groups(pairs: &[[usize; 2]], count: usize) -> Vec<Vec<usize>> {
     groups
 }
 
-/// All rings of regions, in which holes are rings of their own.
+/// All rings of regions, with holes as separate rings.
 fn placed(regions: Vec<Region>, place: &str) -> Vec<Placed> {
     let rings = regions.into_iter().flat_map(|(outer, holes)| std::iter::once(outer).chain(holes));
     rings.map(|ring| (ring, place.to_owned())).collect()

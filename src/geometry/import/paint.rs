@@ -1,4 +1,4 @@
-//! Shapes in the order of painting: white ones, and outlines without fill on larger filled shapes, are pore where they cover those below.
+//! Shapes in painting order: white ones, and unfilled outlines on larger filled shapes, are pore where they cover those below.
 
 use crate::geometry::import::combine::{Solid, area};
 use crate::geometry::import::drawing::{Paint, Refusal};
@@ -8,22 +8,22 @@ use crate::geometry::import::notes::Notes;
 use crate::geometry::tree::Tree;
 use crate::math::Bounds;
 
-/// Areas that agree to this share are the same: nothing was covered.
+/// Relative tolerance of areas: nothing was covered.
 const SAME: f64 = 1e-12;
-/// Lengths below this share of the size of the drawing count as none where outlines meet.
+/// Lengths below this fraction of the size of the drawing count as zero at intersections.
 const TOLERANCE: f64 = 1e-9;
 
-/// What one shape of the file fills.
+/// The area filled by one shape of the file.
 pub(crate) struct Painted {
     /// Its regions.
     pub(crate) regions: Vec<Region>,
-    /// With what.
+    /// Its fill.
     pub(crate) paint: Paint,
-    /// Where it stands.
+    /// Its source location.
     pub(crate) place: String,
 }
 
-/// What remains solid, each region with the place of its shape.
+/// The remaining solid, each region with the source location of its shape.
 pub(crate) fn solids(mut all: Vec<Painted>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
     let is_mixed = all.iter().any(|one| one.paint == Paint::Filled);
     if is_mixed && all.iter().any(|one| one.paint != Paint::Filled) {
@@ -87,14 +87,14 @@ fn cut(all: &mut [Painted], notes: &mut Notes, refusals: &mut Vec<Refusal>) {
             (false, false) => shapes += 1,
         }
     }
-    for (number, told) in [
+    for (number, text) in [
         (white, "white shapes are pore where they cover what is painted before them"),
         (holes, "outlines without fill on larger filled shapes are pore"),
         (frames, "outlines without fill around filled shapes are no solid"),
         (shapes, "closed outlines without fill are taken for shapes"),
     ] {
         if number > 0 {
-            notes.add(format!("{number} {told}."));
+            notes.add(format!("{number} {text}."));
         }
     }
 }
@@ -103,7 +103,7 @@ fn is_in(outer: &Bounds, inner: &Bounds) -> bool {
     outer.contains(inner.min) && outer.contains(inner.max)
 }
 
-/// The regions without what the cutters cover; nothing where they cover nothing, an error where it cannot be told.
+/// The regions minus the cutters; `None` if these cover nothing, an error if it cannot be determined.
 fn without(regions: &[Region], cutters: &[Solid], tolerance: f64) -> Result<Option<Vec<Region>>, ()> {
     let before = area(regions);
     let mut left = Vec::new();

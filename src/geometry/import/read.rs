@@ -9,18 +9,18 @@ use crate::geometry::import::options::Options;
 use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
 use crate::input::file;
 
-/// Reads the bytes of a file; `path` tells where files beside it are looked for.
+/// Reads the bytes of a file; `path` is the location of accompanying files.
 pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
     match format {
         Format::List => list::read(text(bytes)?, options),
         Format::Wkt => wkt::read(text(bytes)?),
         Format::GeoJson => geojson::read(text(bytes)?),
         Format::Shapefile => {
-            // A projection that is not text is a damaged one, which the reader of its text refuses.
+            // A projection that is not text is damaged; its reader reports that.
             let projection = file::read(&path.with_extension("prj"), file::LARGEST_TEXT).ok();
             esri::read(bytes, projection.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).as_deref())
         }
-        // The case reader, which knows places in TOML, reads these.
+        // Read by the case reader, which keeps source locations in TOML.
         Format::Toml => Err(one("a TOML shape file", "a drawing")),
         Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
         Format::Dxf => dxf::read(bytes, options.layers.as_deref(), options.join_within),
@@ -35,7 +35,7 @@ fn one(found: &str, expected: &str) -> Vec<Refusal> {
     vec![Refusal { place: "file".into(), found: found.into(), expected: expected.into() }]
 }
 
-/// The text of a file in UTF-8, without byte order mark.
+/// The UTF-8 text of a file, without byte order mark.
 fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text.trim_start_matches('\u{feff}')),

@@ -1,23 +1,23 @@
-//! Circles behind rings: a polygon that an exporter made of a circle, or a ring of arcs of one circle, becomes a disc again.
+//! Recognition of circles: a polygon that an exporter made of a circle, or a ring of arcs of one circle, becomes a disc again.
 //!
-//! The vertices of such polygons lie on the circle, so that the disc has its radius from them and more area than the polygon (.16 % at 64
-//! vertices). Without this every vertex would pin a meniscus, and entry pressures would be 1 to 6 % too high.
+//! The vertices of such polygons lie on the circle, so that the disc has their radius and a larger area than the polygon (.16 % for 64 vertices). Otherwise
+//! every vertex would pin a meniscus, and entry pressures would be 1 to 6 % too high.
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::import::drawing::Ring;
 use crate::math::{Mat2, Vec2};
 
-/// Distance of the vertices from the circle over its radius.
+/// Maximum distance of the vertices from the circle over its radius.
 const ON_CIRCLE: f64 = 1e-3;
 
-/// Fewest vertices of a polygon that stands for a circle; an octagon is meant as one.
+/// Minimum number of vertices of a polygonized circle; an octagon is taken literally.
 const FEWEST: usize = 12;
 
-/// Longest edge over the mean one, by the angles seen from the center: a flat side of a disc is more.
+/// Longest edge over the mean one, by the angles subtended at the center: beyond, it is a flat side of a disc.
 const EVEN: f64 = 1.5;
 
-/// The circle that a ring stands for: center and radius.
+/// The circle represented by a ring: center and radius.
 pub(crate) fn circle(ring: &Ring) -> Option<(Vec2, f64)> {
     let vertices = &ring.vertices;
     let has_arcs = !ring.is_straight();
@@ -35,7 +35,7 @@ pub(crate) fn circle(ring: &Ring) -> Option<(Vec2, f64)> {
     turns_evenly(ring, center).then_some((center, radius))
 }
 
-/// Whether the ring goes once around `center`, all edges the same way and no straight one much longer than the others.
+/// Whether the ring runs once around `center`, in one direction and without a straight edge much longer than the others.
 fn turns_evenly(ring: &Ring, center: Vec2) -> bool {
     let vertices = &ring.vertices;
     let n = vertices.len();
@@ -58,7 +58,7 @@ fn turns_evenly(ring: &Ring, center: Vec2) -> bool {
     once && longest <= EVEN * std::f64::consts::TAU / n.max(FEWEST) as f64
 }
 
-/// The circle x² + y² = 2 a x + 2 b y + c of least squares (Kåsa), about the mean of the points: unbiased where they go all around.
+/// The least-squares circle x² + y² = 2 a x + 2 b y + c (Kåsa), about the mean of the points: unbiased for points all around it.
 fn fitted(points: &[Vec2]) -> Option<(Vec2, f64)> {
     let count = points.len() as f64;
     let mean = points.iter().sum::<Vec2>() / count;

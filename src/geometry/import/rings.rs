@@ -1,17 +1,17 @@
-//! Rings as files give them, and what is repaired in them: a small gap where they close, doubled vertices.
+//! Rings as read from files, and their repairs: a small gap at the end, duplicate vertices.
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::cross;
 use crate::geometry::import::drawing::Ring;
 use crate::math::{Bounds, Vec2};
 
-/// A gap between the first and last point below this share of the ring's larger side is closed.
+/// Gaps between the first and last point below this fraction of the ring's larger side are closed.
 const GAP: f64 = 1e-6;
 
-/// Vertices nearer than this share of the drawing's larger side are one.
+/// Vertices nearer than this fraction of the drawing's larger side coincide.
 pub(crate) const DOUBLED: f64 = 1e-9;
 
-/// Why a line of points is no ring.
+/// Why a line of points is not a ring.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NoRing {
     /// What was found.
@@ -20,7 +20,7 @@ pub(crate) struct NoRing {
     pub(crate) expected: String,
 }
 
-/// The ring of a line whose last point repeats its first one, as WKT, GeoJSON and shapefiles write it.
+/// The ring of a line whose last point repeats its first one, as in WKT, GeoJSON and shapefiles.
 pub(crate) fn of_closed_line(points: &[[f64; 2]]) -> Result<Ring, NoRing> {
     if let Some((i, point)) = points.iter().enumerate().find(|(_, p)| !p.iter().all(|v| v.is_finite())) {
         let found = format!("point {i} at {point:?}");
@@ -49,14 +49,14 @@ fn too_few(count: usize) -> NoRing {
     NoRing { found: format!("{count} point(s)"), expected: "three points or more, and the first point again".into() }
 }
 
-/// The smallest box around points; empty where there is none.
+/// The bounding box of points; empty without points.
 pub(crate) fn bounds_of_points(points: impl Iterator<Item = Vec2>) -> Bounds {
     let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
     points.fold(none, |b, p| Bounds { min: b.min.inf(&p), max: b.max.sup(&p) })
 }
 
 impl Ring {
-    /// The box around the ring, its arcs included.
+    /// The bounding box of the ring, including its arcs.
     pub(crate) fn bounds(&self) -> Bounds {
         let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
         bulged_ring(&self.vertices)
@@ -64,13 +64,13 @@ impl Ring {
             .fold(none, |a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) })
     }
 
-    /// Signed area, above 0 where the ring runs counter-clockwise.
+    /// Signed area, positive if counter-clockwise.
     pub(crate) fn area(&self) -> f64 {
         let Some(&[x, y, _]) = self.vertices.first() else { return 0.0 };
         bulged_ring(&self.vertices).map(|curve| curve.area_about(Vec2::new(x, y))).sum()
     }
 
-    /// How far the ring reaches from the line through its first vertex and the one farthest from it; 0 where it encloses nothing.
+    /// Extent of the ring across the line through its first vertex and the one farthest from it; 0 for zero area.
     pub(crate) fn width(&self) -> f64 {
         let Some(&[x, y, _]) = self.vertices.first() else { return 0.0 };
         let points = bulged_ring(&self.vertices).flat_map(|curve| [curve.point(0.0), curve.point(0.5)]);
@@ -85,10 +85,10 @@ impl Ring {
         self.vertices.iter().all(|vertex| vertex[2] == 0.0)
     }
 
-    /// The ring run through backwards.
+    /// The ring in reverse order.
     pub(crate) fn reversed(&self) -> Self {
         let n = self.vertices.len();
-        // The edge that begins at a vertex is now the one that ended there.
+        // The edge that starts at a vertex is now the one that ended there.
         let vertices = (0..n).rev().map(|i| {
             let ([x, y, _], [_, _, bulge]) = (self.vertices[i], self.vertices[(i + n - 1) % n]);
             [x, y, if bulge == 0.0 { 0.0 } else { -bulge }]
@@ -101,13 +101,13 @@ impl Ring {
         Self { vertices: self.vertices.iter().map(|&[x, y, bulge]| [x * scale, y * scale, bulge]).collect() }
     }
 
-    /// The ring without doubled vertices, and how many there were.
+    /// The ring without duplicate vertices, and their number.
     pub(crate) fn without_doubled(&self, tolerance: f64) -> (Self, usize) {
         let mut vertices: Vec<[f64; 3]> = Vec::with_capacity(self.vertices.len());
         let far = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) > tolerance;
         for vertex in &self.vertices {
             match vertices.last_mut() {
-                // The edge between the two vanishes, with its bulge.
+                // The edge between the two is removed, with its bulge.
                 Some(last) if !far(last, vertex) => last[2] = vertex[2],
                 _ => vertices.push(*vertex),
             }

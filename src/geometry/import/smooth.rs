@@ -1,27 +1,27 @@
-//! Smooth walls behind polygons: runs of vertices that turn little become arcs through these vertices, real corners stay.
+//! Smooth walls behind polygons: runs of vertices with small angles become arcs through these vertices, real corners stay.
 //!
-//! A drawing program samples curves; at each sample a polygon has a corner that pins menisci and a curved wall has none. A vertex is
-//! smooth where it turns by less than a given angle, between two others of this kind or more. The wall gets the tangent of the circle
-//! through the vertex and its neighbors there, and between two vertices a biarc: two arcs that join smoothly. An edge much
-//! longer than its neighbors is a straight wall and stays one. Arcs of one circle are joined.
+//! A drawing program samples curves; a polygon has a corner at each sample, which pins menisci, unlike a curved wall. A vertex is smooth if its angle is
+//! below a threshold, in a run of at least three. The tangent of the wall there is that of the circle through the vertex and its neighbors, and between two
+//! vertices there is a biarc: two arcs with a common tangent. An edge much longer than its neighbors is a straight wall and stays one. Arcs of one circle are
+//! joined.
 
 use crate::geometry::curve::cross;
 use crate::geometry::import::drawing::Ring;
 use crate::math::Vec2;
 
-/// Fewest smooth vertices in a row; a single one is a blunt corner.
+/// Minimum number of consecutive smooth vertices; a single one is a blunt corner.
 const FEWEST: usize = 3;
 
-/// An edge longer than this many of its shorter neighbor is a straight wall.
+/// Length of a straight wall over its shorter neighbor.
 const LONG: f64 = 4.0;
 
-/// Arcs whose circles differ by less than this share of the radius are of one circle.
+/// Relative difference of arcs of one circle over the radius.
 const SAME_CIRCLE: f64 = 1e-5;
 
 /// Largest angle of a joined arc in rad: a half circle, up to rounding.
 const LARGEST_ARC: f64 = std::f64::consts::PI * (1.0 + 1e-9);
 
-/// The ring with arcs in place of its smooth runs, `below` in rad; nothing where it has none.
+/// The ring with arcs instead of its smooth runs, `below` in rad; `None` if it has none.
 pub(crate) fn smoothed(ring: &Ring, below: f64) -> Option<Ring> {
     let points: Vec<Vec2> = ring.vertices.iter().map(|v| Vec2::new(v[0], v[1])).collect();
     let n = points.len();
@@ -33,7 +33,7 @@ pub(crate) fn smoothed(ring: &Ring, below: f64) -> Option<Ring> {
         return None;
     }
     let edge = |i: usize| points[(i + 1) % n] - points[i];
-    // A long edge is a wall of its own where it ends in a run.
+    // A long edge is a separate wall if it ends in a run.
     let is_long: Vec<bool> = (0..n)
         .map(|i| {
             let (before, after) = (edge((i + n - 1) % n).norm(), edge((i + 1) % n).norm());
@@ -61,7 +61,7 @@ pub(crate) fn smoothed(ring: &Ring, below: f64) -> Option<Ring> {
     for i in 0..n {
         let (a, b) = (points[i], points[(i + 1) % n]);
         let chord = b - a;
-        // Where only one end is smooth, the arc leaves it and ends as it may.
+        // If only one end is smooth, the arc has the tangent there and any at the other end.
         let (ta, tb) = match (tangents[i], tangents[(i + 1) % n]) {
             _ if is_long[i] => (chord, chord),
             (Some(ta), Some(tb)) => (ta, tb),
@@ -79,7 +79,7 @@ pub(crate) fn smoothed(ring: &Ring, below: f64) -> Option<Ring> {
     Some(joined(&vertices))
 }
 
-/// The vertices that belong to runs of at least [`FEWEST`] that turn by less than `below` each.
+/// The vertices in runs of at least [`FEWEST`] with angles below `below`.
 fn smooth_vertices(points: &[Vec2], below: f64) -> Vec<bool> {
     let n = points.len();
     let turns_little: Vec<bool> = (0..n)
@@ -105,10 +105,10 @@ fn smooth_vertices(points: &[Vec2], below: f64) -> Vec<bool> {
     smooth
 }
 
-/// The tangent in `b` of the circle through three points, in the direction from `a` to `c`.
+/// The tangent at `b` of the circle through three points, in the direction from `a` to `c`.
 fn circle_tangent(a: Vec2, b: Vec2, c: Vec2) -> Option<Vec2> {
     let (p, q) = (b - a, c - b);
-    // The sine of the angle between tangent and chord is chord / (2 R), so that each direction counts by the length of the other chord.
+    // The sine of the angle between tangent and chord is chord / (2 R), so that each direction is weighted by the length of the other chord.
     (p.try_normalize(0.0)? * q.norm() + q.try_normalize(0.0)? * p.norm()).try_normalize(0.0)
 }
 
@@ -129,7 +129,7 @@ fn biarc(a: Vec2, ta: Vec2, b: Vec2, tb: Vec2) -> [[f64; 3]; 2] {
     [[a.x, a.y, bulge(ta, joint - a)], [joint.x, joint.y, -bulge(-tb, joint - b)]]
 }
 
-/// The bulge of the arc that leaves along `t` and has this chord.
+/// The bulge of the arc with initial tangent `t` and this chord.
 fn bulge(t: Vec2, chord: Vec2) -> f64 {
     (0.5 * cross(t, chord).atan2(t.dot(&chord))).tan()
 }
@@ -141,7 +141,7 @@ fn joined(vertices: &[[f64; 3]]) -> Ring {
         let ([x, y, bulge], [u, v, _]) = (vertices[i], vertices[(i + 1) % n]);
         Arc::of(Vec2::new(x, y), Vec2::new(u, v), bulge)
     };
-    // Begin where two circles meet, so that no arc is cut by the beginning of the ring.
+    // Start where two circles meet, so that no arc is divided by the start of the ring.
     let begin = (0..n).find(|&i| !arc(i).continues(&arc((i + n - 1) % n))).unwrap_or(0);
     let mut found: Vec<[f64; 3]> = Vec::with_capacity(n);
     let mut open: Option<(Arc, f64)> = None;
@@ -165,7 +165,7 @@ fn joined(vertices: &[[f64; 3]]) -> Ring {
     Ring { vertices: found }
 }
 
-/// The circle of an edge; an endless radius where it is straight.
+/// The circle of an edge; an infinite radius if it is straight.
 #[derive(Debug, Clone, Copy)]
 struct Arc {
     center: Vec2,
@@ -182,7 +182,7 @@ impl Arc {
         Self { center, radius, angle }
     }
 
-    /// Whether this edge lies on the circle of another one; never true of straight edges.
+    /// Whether this edge lies on the circle of another one; never true for straight edges.
     fn continues(&self, other: &Self) -> bool {
         let limit = SAME_CIRCLE * other.radius.abs();
         limit.is_finite() && (self.radius - other.radius).abs() < limit && (self.center - other.center).norm() < limit

@@ -1,4 +1,4 @@
-//! B-spline curves, rational ones too (NURBS), and the cubic spline through given points.
+//! B-spline curves, including rational ones (NURBS), and the interpolating cubic spline.
 //!
 //! Source: Piegl and Tiller, The NURBS Book, 2nd ed., Springer 1997: algorithms A3.1, A4.1 by de Boor's triangle.
 
@@ -19,7 +19,7 @@ pub(crate) struct BSpline {
 }
 
 impl BSpline {
-    /// A checked curve: the number of knots that the points ask for, not falling, weights above 0. No weights: all are 1.
+    /// A checked curve: matching number of knots, in non-decreasing order, weights above 0. Without weights: all are 1.
     pub(crate) fn new(degree: usize, knots: Vec<f64>, points: Vec<Vec2>, weights: Vec<f64>) -> Result<Self, String> {
         if degree == 0 || degree > HIGHEST_DEGREE {
             return Err(format!("degree {degree}"));
@@ -52,12 +52,12 @@ impl BSpline {
         inner.windows(2).filter(|pair| pair[0] < pair[1]).map(|pair| [pair[0], pair[1]]).collect()
     }
 
-    /// The image under a map; a rational curve is that of the images of its control points.
+    /// The image under an affine map, by those of the control points, also for rational curves.
     pub(crate) fn mapped(&self, map: &Affine) -> Self {
         Self { points: self.points.iter().map(|&point| map.apply(point)).collect(), ..self.clone() }
     }
 
-    /// The same points run through backwards.
+    /// The same points in reverse order.
     pub(crate) fn reversed(&self) -> Self {
         Self {
             degree: self.degree,
@@ -79,7 +79,7 @@ impl BSpline {
         &self.points
     }
 
-    /// The last span whose knots hold `t`; at an inner knot the one on the asked side.
+    /// The last span whose knots enclose `t`; at an inner knot the one on the given side.
     fn span(&self, t: f64, side: f64) -> usize {
         let (low, high) = (self.degree, self.points.len() - 1);
         let holds = |knot: f64| if side < 0.0 { knot < t } else { knot <= t };
@@ -90,7 +90,7 @@ impl BSpline {
     /// Point and derivative at `t`.
     fn evaluate(&self, t: f64, side: f64) -> (Vec2, Vec2) {
         let (p, k) = (self.degree, self.span(t, side));
-        // Homogeneous control points, gathered about the first one so that far coordinates cost no digits.
+        // Homogeneous control points, relative to the first one so that distant coordinates lose no digits.
         let origin = self.points[k - p];
         let mut triangle = [[0.0; 3]; HIGHEST_DEGREE + 1];
         for (j, entry) in triangle[..=p].iter_mut().enumerate() {
@@ -126,8 +126,8 @@ impl SmoothCurve for BSpline {
     }
 }
 
-/// The cubic spline through `points` in order as Bezier pieces, twice differentiable, with the parameter growing as the chords.
-/// Ends have the given directions, or no curvature where none is given; a closed one ends as it begins.
+/// The cubic spline through `points` in order as Bezier pieces, twice differentiable, with the parameter proportional to the chord length. Ends have the
+/// given directions, or zero curvature by default; a closed one is periodic.
 pub(crate) fn through_points(points: &[Vec2], is_closed: bool, directions: [Option<Vec2>; 2]) -> Vec<[Vec2; 4]> {
     let mut points = points.to_vec();
     points.dedup();
@@ -141,7 +141,7 @@ pub(crate) fn through_points(points: &[Vec2], is_closed: bool, directions: [Opti
     let is_closed = is_closed && n > 3;
     let widths: Vec<f64> = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
     let slopes: Vec<Vec2> = points.windows(2).zip(&widths).map(|(pair, width)| (pair[1] - pair[0]) / *width).collect();
-    // Unknown: the derivatives at the points. Row i: [before, here, after] and its right side.
+    // Unknown: the derivatives at the points. Row i: [before, here, after] and its right-hand side.
     let inner = |before: usize, after: usize| {
         let (h0, h1) = (widths[before], widths[after]);
         ([h1, 2.0 * (h0 + h1), h0], (slopes[before] * h1 + slopes[after] * h0) * 3.0)
@@ -190,7 +190,7 @@ fn solve(rows: &[Row]) -> Vec<Vec2> {
     solution
 }
 
-/// The same for rows whose first and last are neighbors, by the formula of Sherman and Morrison.
+/// The same for cyclic tridiagonal systems, by the Sherman-Morrison formula.
 fn solve_cyclic(rows: &[Row]) -> Vec<Vec2> {
     let n = rows.len();
     let (corner_first, corner_last) = (rows[0].0[0], rows[n - 1].0[2]);
@@ -221,7 +221,7 @@ mod tests {
     use crate::geometry::curve::unit;
     use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-    /// A quarter of the unit circle as a rational curve of second degree.
+    /// A quarter of the unit circle as a rational quadratic curve.
     fn quarter() -> BSpline {
         let points = vec![Vec2::x(), Vec2::new(1.0, 1.0), Vec2::y()];
         BSpline::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], points, vec![1.0, FRAC_1_SQRT_2, 1.0]).unwrap()
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_spline_with_inner_knots_equals_the_sum_over_its_basis() {
-        // Third degree over 0, 1, 2, 3, unequal knots; the recursion of Cox and de Boor as the oracle.
+        // Third degree over 0, 1, 2, 3, unequal knots; compared with the Cox-de Boor recursion.
         let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.5, 3.0, 3.0, 3.0, 3.0];
         let points: Vec<Vec2> = (0..6).map(|i| Vec2::new(f64::from(i), f64::from(i * i % 5))).collect();
         let curve = BSpline::new(3, knots.clone(), points.clone(), Vec::new()).unwrap();
@@ -269,7 +269,7 @@ mod tests {
         assert_eq!(pieces.len(), 16);
         for [a, b, c, d] in pieces {
             let middle = (a + (b + c) * 3.0 + d) / 8.0;
-            // The error of a cubic spline falls with the fourth power of the angle: (2π/16)⁴/384 = 6e-5.
+            // The error of a cubic spline scales as the fourth power of the angle: (2π/16)⁴/384 = 6e-5.
             assert!((middle.norm() - 1.0).abs() < 1e-4);
             assert!((b - a).dot(&a).abs() < 1e-12, "tangents are those of the circle by symmetry");
         }

@@ -1,11 +1,11 @@
-//! What the lines of text files have in common: words, comments, the domain, and lines that cannot be read.
+//! Common parts of text formats: words, comments, the domain, and lines that cannot be read.
 //!
 //! Comment lines begin with `#`; `# domain xmin ymin xmax ymax` (in the unit of the file) sets the domain.
 
 use crate::geometry::import::drawing::Refusal;
 use crate::math::{Bounds, Vec2};
 
-/// What stands beside the shapes in a text file.
+/// Content of a text file besides the shapes.
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
     /// The box of a `# domain` comment.
@@ -15,7 +15,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Takes in a comment, which may set the domain; false where the line is none.
+    /// Parses a comment, which may set the domain; false if the line is not a comment.
     pub(crate) fn take_comment(&mut self, line: usize, text: &str) -> bool {
         let Some(comment) = text.strip_prefix('#') else { return false };
         let mut words = words(comment.trim_start_matches('#'));
@@ -31,13 +31,13 @@ impl Lines {
         true
     }
 
-    /// Notes a line that cannot be read.
+    /// Records a line that cannot be read.
     pub(crate) fn refuse(&mut self, line: usize, text: &str, expected: String) {
         self.bad.push(Refusal { place: place(line), found: quoted(text), expected });
     }
 }
 
-/// How messages call a line.
+/// The source location of a line.
 pub(crate) fn place(line: usize) -> String {
     format!("line {line}")
 }

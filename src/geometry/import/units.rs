@@ -2,8 +2,8 @@
 
 use crate::geometry::import::drawing::Unit;
 
-/// Names of units with their length in m; the first name of a length is the one shown. The inch is exactly 25.4 mm, and a CSS pixel
-/// 1/96 of it; the foot is the international one.
+/// Names of units with their length in m; the first name of a length is the one displayed. The inch is exactly 25.4 mm, and a CSS pixel 1/96 of it; the foot
+/// is the international one.
 const UNITS: [(&str, f64); 17] = [
     ("m", 1.0),
     ("cm", 1.0e-2),
@@ -30,7 +30,7 @@ pub(crate) fn by_name(name: &str) -> Option<Unit> {
     UNITS.iter().find(|unit| unit.0 == name).map(|&(name, meters)| Unit { name: name.into(), meters })
 }
 
-/// What to write in place of an unknown name.
+/// The remedy for an unknown name.
 pub(crate) fn way_out() -> String {
     "use m, cm, mm, um, nm, in, mil, ft, pt or px, or `scale`, the length of the drawing unit in m".into()
 }

@@ -1,4 +1,4 @@
-//! A window in a larger drawing: shapes that do not reach into it are left out; [`cut`](crate::geometry::import::cut) cuts the others.
+//! A window in a larger drawing: shapes outside it are omitted; [`cut`](crate::geometry::import::cut) cuts the others.
 
 use crate::geometry::body::Body;
 use crate::geometry::curve::Curve;
@@ -20,21 +20,21 @@ pub(crate) fn reaches(shape: &ShapeSpec, window: Bounds) -> bool {
         if (0..2).all(|i| b.min[i] <= a.min[i] && a.max[i] <= b.max[i]) {
             return true;
         }
-        // A part of its surface lies in the window, or the window lies in it.
+        // A part of its surface lies in the window, or the window lies inside it.
         body.curves.iter().any(|curve| enters(curve, window, tolerance)) || body.signed_distance(window.center()) < 0.0
     })
 }
 
 fn enters(curve: &Curve, window: Bounds, tolerance: f64) -> bool {
     let inner = window.grown(-tolerance);
-    let mut places = vec![0.0, 1.0];
+    let mut parameters = vec![0.0, 1.0];
     for axis in 0..2 {
         for at in [window.min[axis], window.max[axis]] {
-            places.extend(crossings(curve, axis, at));
+            parameters.extend(crossings(curve, axis, at));
         }
     }
-    places.sort_by(f64::total_cmp);
-    places.windows(2).any(|pair| inner.contains(curve.point(0.5 * (pair[0] + pair[1]))))
+    parameters.sort_by(f64::total_cmp);
+    parameters.windows(2).any(|pair| inner.contains(curve.point(0.5 * (pair[0] + pair[1]))))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Polygons in well-known text: `POLYGON`, `MULTIPOLYGON` and `GEOMETRYCOLLECTION` of these.
 //!
-//! A file may hold several geometries one after the other, also on one line, with or without a comma or semicolon between. Separate polygons may overlap: they are united. Points and lines are
-//! counted and not used.
+//! A file may contain several geometries in sequence, also on one line, with or without a comma or semicolon in between. Separate polygons may overlap: they
+//! are united. Points and lines are counted but not used.
 
 use std::str::FromStr;
 
@@ -14,7 +14,7 @@ use crate::geometry::import::text::{Lines, place};
 const EXPECTED: &str =
     "POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION of polygons, such as `POLYGON ((0 0, 1 0, 0 1, 0 0))`";
 
-/// Deepest parentheses of a geometry: collections within collections beyond this are no drawing.
+/// Maximum depth of parentheses of a geometry, including nested collections.
 const DEEPEST: i64 = 32;
 
 /// Reads well-known text.
@@ -51,11 +51,11 @@ fn not_finite(row: &str) -> Option<&str> {
     words.find(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()) && word.parse::<f64>().is_ok())
 }
 
-/// A geometry of which the beginning was read.
+/// A partially read geometry.
 #[derive(Default)]
 struct Chunk {
     text: String,
-    /// The line where it begins.
+    /// The line of its start.
     line: usize,
     depth: i64,
     deepest: i64,
@@ -63,8 +63,7 @@ struct Chunk {
 }
 
 impl Chunk {
-    /// Takes one more character; true where the geometry ends with it: where its parentheses close, behind `EMPTY`, and at a comma or
-    /// semicolon between geometries.
+    /// Adds one more character; true if it completes the geometry: at its closing parenthesis, after `EMPTY`, and at a comma or semicolon between geometries.
     fn push(&mut self, c: char, line: usize, is_finite: bool) -> bool {
         let is_between = self.depth == 0 && (c.is_whitespace() || ",;".contains(c));
         if is_between && self.text.is_empty() {

@@ -3,10 +3,10 @@
 use super::error::{MOST_DISCS, PackError, size_of};
 use crate::geometry::spec::{Arrangement, Array, Disc};
 
-/// The discs of an array, as many as fit wholly into the region, centered in it.
+/// The discs of an array, as many as fit completely into the region, centered in it.
 ///
 /// # Errors
-/// Sizes that are no sizes, or a region that holds no disc.
+/// Invalid sizes, or a region that holds no disc.
 pub fn array(spec: &Array) -> Result<Vec<Disc>, PackError> {
     let size = size_of(spec.region)?;
     let (radius, gap) = (spec.radius, spec.gap);
@@ -15,7 +15,7 @@ pub fn array(spec: &Array) -> Result<Vec<Disc>, PackError> {
     let pitch = 2.0 * radius + gap;
     let row = if spec.arrangement == Arrangement::Square { pitch } else { 0.5 * 3.0_f64.sqrt() * pitch };
     let shift = if spec.arrangement == Arrangement::Square { 0.0 } else { 0.5 * pitch };
-    // Rounding must not cost a row of discs that just fits.
+    // Tolerance, so that rounding does not lose a row of discs that just fits.
     const ROUNDING: f64 = 1e-9;
     let fits =
         |room: f64, step: f64| if room < -ROUNDING * step { 0.0 } else { (room / step + ROUNDING).floor() + 1.0 };

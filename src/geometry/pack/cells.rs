@@ -1,4 +1,4 @@
-//! Points sorted into square cells, periodic or not, so that all near ones are found at once.
+//! A cell list of points, periodic or not, for neighbor searches.
 
 /// Cells over a rectangle, at least as wide as the reach.
 pub(super) struct Cells {
@@ -13,7 +13,7 @@ pub(super) struct Cells {
 impl Cells {
     /// Empty cells for neighbors up to `reach` away.
     pub(crate) fn new(region: [[f64; 2]; 2], periodic: [bool; 2], reach: f64) -> Self {
-        // More cells than this would cost memory and save nothing.
+        // More cells would cost memory and save nothing.
         const MOST: f64 = 2000.0;
         let size = [region[1][0] - region[0][0], region[1][1] - region[0][1]];
         let counts = size.map(|s| (s / reach).floor().clamp(1.0, MOST) as usize);
@@ -63,7 +63,7 @@ impl Cells {
         }
     }
 
-    /// From `a` to `b`, the shorter way around periodic sides.
+    /// The displacement from `a` to `b`, the shortest across periodic sides.
     pub(crate) fn between(&self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let d = b[k] - a[k];

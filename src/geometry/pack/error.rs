@@ -1,14 +1,14 @@
-//! What generators refuse, and the bounds that they share.
+//! Errors of generators, and their common bounds.
 
-/// What cannot be made, with the reason and a way out.
+/// Why a pack cannot be generated, and a remedy.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{key}: {message} ({help})")]
 pub struct PackError {
-    /// The key that is wrong, such as `radius`.
+    /// The key with the problem, such as `radius`.
     pub key: &'static str,
-    /// What is wrong with it.
+    /// The problem.
     pub message: String,
-    /// A way out.
+    /// The remedy.
     pub help: String,
 }
 
@@ -21,14 +21,14 @@ impl PackError {
         if is_good { Ok(()) } else { Err(Self::new(key, message, help)) }
     }
 
-    /// Refuses a radius or a gap that is none.
+    /// Rejects an invalid radius or gap.
     pub(crate) fn unless_size(key: &'static str, size: f64) -> Result<(), Self> {
         let help = if key == "gap" { "a length above 0, so that fluid can pass" } else { "a length above 0" };
         Self::unless(size > 0.0 && size.is_finite(), key, format!("{size:e} m is no {key}"), help)
     }
 }
 
-/// Most discs of one generator: more would be a slip of a unit.
+/// Maximum number of discs of one generator: more would indicate a wrong unit.
 pub(crate) const MOST_DISCS: f64 = 2e6;
 
 /// A rectangle as lower left and upper right corner in m, checked.

@@ -1,13 +1,13 @@
-//! A micromodel: a random pack between an inlet and an outlet manifold, each with a straight channel, and walls around.
+//! A micromodel: a random pack between an inlet and an outlet manifold, each with a straight channel, enclosed by walls.
 
 use super::error::PackError;
 use super::random::random_pack;
 use crate::geometry::spec::{Disc, GeometrySpec, Polygon, RandomPack, ShapeSpec, SolidSide};
 
-/// Sizes of a micromodel beside those of its pack. The flow is along x.
+/// Dimensions of a micromodel besides those of its pack. The flow is along x.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Micromodel {
-    /// The grains; the region is the pack's, its lower left corner the origin of the model's height.
+    /// The grains; the region is that of the pack, its lower left corner the origin of the model's height.
     pub pack: RandomPack,
     /// Length of each manifold along x in m.
     pub manifold: f64,
@@ -22,7 +22,7 @@ pub struct Micromodel {
 /// The shapes of a micromodel and its discs.
 ///
 /// # Errors
-/// As for a random pack, and sizes that are no sizes.
+/// As for a random pack, and invalid dimensions.
 pub fn micromodel(model: &Micromodel) -> Result<(GeometrySpec, Vec<Disc>), PackError> {
     let [[x0, y0], [x1, y1]] = model.pack.region;
     for (key, length) in [
@@ -49,7 +49,7 @@ pub fn micromodel(model: &Micromodel) -> Result<(GeometrySpec, Vec<Disc>), PackE
     let (left, right) = (x0 - outer, x1 + outer);
     let (bottom, top) = (y0 - model.wall, y1 + model.wall);
     let (low, high) = (0.5 * (y0 + y1 - model.channel_width), 0.5 * (y0 + y1 + model.channel_width));
-    // Walls go on beyond the domain, so that its sides cut them.
+    // Walls extend beyond the domain and are cut by its sides.
     let beyond = outer + model.wall;
     let lower = vec![
         [left - beyond, bottom - beyond],
@@ -73,7 +73,7 @@ pub fn micromodel(model: &Micromodel) -> Result<(GeometrySpec, Vec<Disc>), PackE
     ];
     let mut shapes: Vec<ShapeSpec> = [lower, upper]
         .map(|mut outer| {
-            // A channel as wide as the pack leaves doubled points.
+            // A channel as wide as the pack gives duplicate points.
             outer.dedup();
             ShapeSpec::Polygon(Polygon { outer, holes: Vec::new(), position: [0.0; 2], rotation_deg: 0.0 })
         })

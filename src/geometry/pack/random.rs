@@ -1,9 +1,9 @@
-//! Random packs of discs at a given porosity, sizes and smallest gap.
+//! Random packs of discs with given porosity, sizes and smallest gap.
 //!
-//! Radii are drawn from a normal distribution (the sum of twelve uniform numbers, cut at 2.5 deviations) and scaled together so that the
-//! porosity is met. Each disc then counts with half of the gap around it. Up to a solid fraction of .45 so counted, discs are
-//! placed one by one, the largest first, where there is room (random sequential addition, which jams at .547 for equal discs).
-//! Denser packs begin so with smaller discs, which grow while overlaps are pushed apart (after Jodrey, Tory 1985).
+//! Radii are drawn from a normal distribution (the sum of twelve uniform numbers, truncated at 2.5 deviations) and scaled together to the porosity. Each disc
+//! is then enlarged by half the gap. Up to a solid fraction of 0.45 of the enlarged discs, they are placed one by one, the largest first, at free positions
+//! (random sequential addition, which jams at 0.547 for equal discs). Denser packs start with smaller discs, which grow while overlaps are pushed apart
+//! (after Jodrey, Tory 1985).
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -12,17 +12,17 @@ use super::cells::Cells;
 use super::error::{MOST_DISCS, PackError, size_of};
 use crate::geometry::spec::{Disc, RandomPack};
 
-/// Radii lie within so many deviations of their mean.
+/// Radii lie within this many standard deviations of their mean.
 const CUT: f64 = 2.5;
-/// Largest deviation over mean: the smallest disc has an eighth of the mean radius.
+/// Largest standard deviation over the mean: the smallest disc has an eighth of the mean radius.
 const WIDEST: f64 = 0.35;
-/// Solid fraction, gaps counted, up to which discs are placed one by one.
+/// Solid fraction including gaps up to which discs are placed one by one.
 const SEQUENTIAL: f64 = 0.45;
-/// The same for the pack from which discs grow.
+/// Solid fraction of the initial pack from which discs grow.
 const LOOSE: f64 = 0.40;
-/// Equal discs cannot be denser (hexagonal); random ones jam at about .84.
+/// Equal discs cannot be denser (hexagonal packing); random ones jam at about 0.84.
 const DENSEST: f64 = 0.88;
-/// Places that are tried for one disc.
+/// Maximum number of trial positions for one disc.
 const TRIES: usize = 20_000;
 
 /// Uniform numbers from a seed.
@@ -35,12 +35,12 @@ impl Uniform {
         Self(ChaCha8Rng::from_seed(bytes))
     }
 
-    /// From 0 to below 1, all 53 bits.
+    /// In [0, 1) with 53 bits.
     fn next(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Mean 0, deviation 1, cut.
+    /// Normally distributed with mean 0 and standard deviation 1, truncated.
     fn normal(&mut self) -> f64 {
         loop {
             let sum = (0..12).map(|_| self.next()).sum::<f64>() - 6.0;
@@ -54,7 +54,7 @@ impl Uniform {
 /// The discs of a random pack. Along periodic axes a disc may cross the region's sides, written once; else it keeps the gap from them.
 ///
 /// # Errors
-/// Sizes that are no sizes, and packs that cannot be so dense: with the porosity that was reached.
+/// Invalid sizes, and packs that are too dense: with the porosity that was reached.
 pub fn random_pack(spec: &RandomPack) -> Result<Vec<Disc>, PackError> {
     let size = size_of(spec.region)?;
     check(spec, size)?;
@@ -121,14 +121,14 @@ fn check(spec: &RandomPack, size: [f64; 2]) -> Result<(), PackError> {
     )
 }
 
-/// The radii, the largest first, together as large as the solid.
+/// The radii in descending order, with the total area of the solid.
 fn radii(spec: &RandomPack, size: [f64; 2], uniform: &mut Uniform) -> Result<Vec<f64>, PackError> {
     let solid = (1.0 - spec.porosity) * size[0] * size[1] / std::f64::consts::PI;
     let (mut radii, mut sum) = (Vec::new(), 0.0);
     loop {
         let radius = spec.radius * (1.0 + spec.radius_deviation * uniform.normal());
         let square = radius * radius;
-        // The last disc is taken where the sum comes nearer with it.
+        // The last disc is included if the sum is closer with it.
         if !radii.is_empty() && sum + 0.5 * square > solid {
             break;
         }
@@ -138,7 +138,7 @@ fn radii(spec: &RandomPack, size: [f64; 2], uniform: &mut Uniform) -> Result<Vec
     let scale = (solid / sum).sqrt();
     radii.iter_mut().for_each(|radius| *radius *= scale);
     radii.sort_by(|a, b| b.total_cmp(a));
-    // With few discs the common scale may be far from one.
+    // With few discs the common scale factor may be far from one.
     const SAME: f64 = 0.1;
     PackError::unless(
         (scale - 1.0).abs() <= SAME,
@@ -156,13 +156,13 @@ struct Placing<'a> {
 }
 
 impl Placing<'_> {
-    /// The part of an axis, from and to, where the center of a disc may lie.
+    /// The range of an axis in which the center of a disc may lie.
     fn range(&self, axis: usize, radius: f64) -> [f64; 2] {
         let margin = if self.periodic[axis] { 0.0 } else { radius + self.spec.gap };
         [self.spec.region[0][axis] + margin, self.spec.region[1][axis] - margin]
     }
 
-    /// The solid fraction with half of the gap around each disc, in the room that they have.
+    /// The solid fraction including half of the gap around each disc, in the available region.
     fn counted(&self, radii: &[f64]) -> f64 {
         let half = 0.5 * self.spec.gap;
         let sum: f64 = radii.iter().map(|r| (r + half) * (r + half)).sum();
@@ -170,7 +170,7 @@ impl Placing<'_> {
         std::f64::consts::PI * sum / (room(0) * room(1))
     }
 
-    /// The refusal of a pack of the solid fraction `counted`, gaps counted, where `reached` can be had.
+    /// The error for a pack of the solid fraction `counted` including gaps, where `reached` is possible.
     fn refusal(&self, counted: f64, reached: f64) -> PackError {
         let solid = (1.0 - self.spec.porosity) * reached / counted;
         PackError::new(
@@ -185,7 +185,7 @@ impl Placing<'_> {
         )
     }
 
-    /// Centers found one by one for discs of `scale` times their size with gaps; none where there is no room.
+    /// Centers by sequential addition for discs of `scale` times their size with gaps; `None` if there is no free position.
     fn one_by_one(&self, radii: &[f64], scale: f64, uniform: &mut Uniform) -> Option<Vec<[f64; 2]>> {
         let gap = self.spec.gap;
         let mut cells = Cells::new(self.spec.region, self.periodic, (2.0 * radii[0] + gap) * scale);
@@ -209,19 +209,19 @@ impl Placing<'_> {
         Some(centers)
     }
 
-    /// Centers without overlaps, from those of smaller discs; else the share of the size that was reached.
+    /// Centers without overlaps, from those of smaller discs; on failure the fraction of the size that was reached.
     fn grown(&self, radii: &[f64], mut centers: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, f64> {
-        // A little more than asked for, so that the last overlaps vanish in finite time.
+        // Slightly larger than required, so that the last overlaps vanish in finite time.
         const MORE: f64 = 1.0 + 2e-3;
-        // Pair sums: 1e5 discs then take some ten seconds at most.
+        // Number of pair evaluations: 1e5 discs then take some ten seconds at most.
         const WORK: usize = 400_000_000;
         const LEAST_ROUNDS: usize = 400;
         const MOST_ROUNDS: usize = 20_000;
-        // Momentum of the motion: 1 / (1 - this) rounds are averaged.
+        // Momentum of the motion: an average over 1 / (1 - this) iterations.
         const MOMENTUM: f64 = 0.8;
-        // A disc moves so much of the overlap; below one half, as both move.
+        // Fraction of the overlap by which a disc moves; below one half, as both move.
         const STEP: f64 = 0.25;
-        // Cells are a little wider than needed, so that they serve for some rounds.
+        // Cells are a little wider than necessary, so that they remain valid for several iterations.
         const SKIN: f64 = 0.3;
         let gap = self.spec.gap;
         let reach = 2.0 * radii[0] + gap;

@@ -25,7 +25,7 @@ fn a_drop_on_a_turned_wall_has_its_angle_on_both_sides() {
         for theta in [20.0, 40.0, 90.0, 140.0, 160.0_f64] {
             let up = Rotation2::new(turn.to_radians()) * Vec2::y();
             let wall = |x: Vec2| WallPoint { distance: x.dot(&up) + 0.2, normal: up };
-            // A flat cap of radius 1 would lie within the band of 2h that is left out.
+            // A flat cap of radius 1 would lie within the excluded band of 2h.
             let radius = if theta < 30.0 { 3.0 } else { 1.0 };
             let center = -(0.2 + radius * theta.to_radians().cos()) * up;
             let lines = angles(|x| tanh_disc(x, center, radius), &wall);
@@ -67,7 +67,7 @@ fn a_drop_on_a_disc_has_its_angle() {
 
 #[test]
 fn a_drop_that_ends_at_the_edges_of_a_pillar_has_its_angle_to_the_face_below_it() {
-    // The pillar |x| < 0.7, y < 0; a cap over all of its top.
+    // The pillar |x| < 0.7, y < 0, with a cap over the whole of its top.
     let wall = |x: Vec2| {
         let beyond = Vec2::new((x.x.abs() - 0.7).max(0.0), x.y.max(0.0));
         let outside = Vec2::new(x.x.signum() * beyond.x, beyond.y);

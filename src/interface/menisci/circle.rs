@@ -1,13 +1,13 @@
-//! Oriented circles in linear coordinates: the conditions that a meniscus meets become linear.
+//! Oriented circles in coordinates in which the conditions on a meniscus are linear.
 //!
-//! A circle of signed curvature k = 1/r and center C is told by X = k C, Y = k |C|² − 1/k and k, with |X|² − k Y = 1 (the coordinates of
-//! Lie's geometry of circles). They stay finite where the circle is a line: k = 0, X its unit normal. In them
-//! - to meet a round wall of signed radius R about c under the angle θ, |C − c|² = R² + r² + 2 R r cos θ, reads
-//!   −2 c·X + Y + k (|c|² − R²) = 2 R cos θ (R > 0 where the solid is convex, R < 0 where it is concave, R = 0 at a vertex);
-//! - to meet a straight wall through q with normal n, n·(C − q) = r cos θ, reads n·X − k n·q = cos θ;
-//! - to touch a wall is to meet it under θ = 0.
+//! A circle of signed curvature k = 1/r and center C is represented by X = k C, Y = k |C|² − 1/k and k, with |X|² − k Y = 1 (the coordinates of Lie sphere
+//! geometry). They stay finite where the circle degenerates to a line: k = 0, X its unit normal. In these coordinates
+//! - meeting a circular wall of signed radius R about c at the angle θ, |C − c|² = R² + r² + 2 R r cos θ, reads −2 c·X + Y + k (|c|² − R²) = 2 R cos θ (R > 0
+//!   where the solid is convex, R < 0 where it is concave, R = 0 at a vertex);
+//! - meeting a straight wall through q with normal n at the angle θ, n·(C − q) = r cos θ, reads n·X − k n·q = cos θ;
+//! - being tangent to a wall is the case θ = 0.
 //!
-//! So a circle under three such conditions is a root of one quadratic equation, whatever the walls are.
+//! A circle under three such conditions is therefore a root of one quadratic equation, whatever the walls.
 
 use crate::math::Vec2;
 
@@ -23,33 +23,33 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// The circle through `p` whose center lies from there along the unit vector `v` where k > 0.
+    /// The circle through `p` whose center lies in the direction of the unit vector `v` from `p` for k > 0.
     pub(crate) fn through(p: Vec2, v: Vec2, k: f64) -> Self {
         Self { x: p * k + v, y: k * p.norm_squared() + 2.0 * p.dot(&v), k }
     }
 }
 
-/// A linear condition: the first four numbers times (X, Y, k) are the last.
+/// A linear condition: the scalar product of the first four numbers with (X, Y, k) equals the fifth.
 pub(super) type Condition = [f64; 5];
 
-/// To meet a round wall, or to pass through a vertex (`radius` 0).
+/// The condition to meet a circular wall, or to pass through a vertex (`radius` 0).
 pub(super) fn meets_round(center: Vec2, radius: f64, cos_angle: f64) -> Condition {
     let distance = center.norm();
     let power = (distance - radius.abs()) * (distance + radius.abs());
     [-2.0 * center.x, -2.0 * center.y, 1.0, power, 2.0 * radius * cos_angle]
 }
 
-/// To meet the straight wall through `q`.
+/// The condition to meet the straight wall through `q`.
 pub(super) fn meets_straight(q: Vec2, normal: Vec2, cos_angle: f64) -> Condition {
     [normal.x, normal.y, 0.0, -normal.dot(&q), cos_angle]
 }
 
-/// To have the curvature `k`.
+/// The condition to have the curvature `k`.
 pub(super) fn has_curvature(k: f64) -> Condition {
     [0.0, 0.0, 0.0, 1.0, k]
 }
 
-/// The circles that satisfy three conditions; none where the conditions depend on each other.
+/// The circles that satisfy three conditions; none if the conditions are linearly dependent.
 pub(super) fn circles(conditions: [Condition; 3]) -> [Option<Circle>; 2] {
     let Some((start, along)) = line_of_solutions(conditions) else { return [None, None] };
     // |X|² − k Y = 1 on start + t along: a t² + 2 b t + c = 0.
@@ -60,7 +60,7 @@ pub(super) fn circles(conditions: [Condition; 3]) -> [Option<Circle>; 2] {
         let z: [f64; 4] = std::array::from_fn(|i| start[i] + t * along[i]);
         z.iter().all(|z| z.is_finite()).then_some(Circle { x: Vec2::new(z[0], z[1]), y: z[2], k: z[3] })
     };
-    // A double root may miss zero by rounding.
+    // The discriminant of a double root may fall below zero by rounding.
     let square = b * b - a * c;
     if square < -1e-12 * (b * b).max((a * c).abs()) {
         return [None, None];
@@ -71,12 +71,12 @@ pub(super) fn circles(conditions: [Condition; 3]) -> [Option<Circle>; 2] {
     [first, second]
 }
 
-/// The symmetric form whose square is |X|² − k Y.
+/// The bilinear form whose square is |X|² − k Y.
 fn product(z: &[f64; 4], w: &[f64; 4]) -> f64 {
     z[0] * w[0] + z[1] * w[1] - 0.5 * (z[2] * w[3] + z[3] * w[2])
 }
 
-/// A solution of three linear equations in four unknowns and the direction of all others, by elimination with full pivoting.
+/// A solution of three linear equations in four unknowns and the direction of the null space, by elimination with full pivoting.
 fn line_of_solutions(mut rows: [Condition; 3]) -> Option<([f64; 4], [f64; 4])> {
     let mut columns = [0, 1, 2, 3];
     for step in 0..3 {
@@ -89,7 +89,7 @@ fn line_of_solutions(mut rows: [Condition; 3]) -> Option<([f64; 4], [f64; 4])> {
                 }
             }
         }
-        // Below this the rest of the rows is rounding: the conditions depend on each other.
+        // Below this the remaining rows are rounding: the conditions are linearly dependent.
         if best.0 <= 1e-13 {
             return None;
         }

@@ -1,11 +1,11 @@
-//! The points that two curves have in common.
+//! Intersections of two curves.
 
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
-/// The points in which two curves meet, ends included. Of segments that run along each other it gives none.
+/// The points at which two curves intersect, ends included; none for collinear segments that overlap.
 pub(super) fn meetings(one: &Curve, other: &Curve) -> [Option<Vec2>; 2] {
-    // Rounding of positions over their size.
+    // Rounding of positions, relative to their size.
     let slack = 1e-12 * (one.bounds().size().norm() + other.bounds().size().norm());
     let on_both =
         |x: &Vec2| (one.project(*x).point - x).norm() <= slack && (other.project(*x).point - x).norm() <= slack;
@@ -30,11 +30,11 @@ pub(super) fn meetings(one: &Curve, other: &Curve) -> [Option<Vec2>; 2] {
             circle_circle(c1, r1, c2, r2)
         }
     };
-    // Infinite or undefined where the lines have no point in common: on neither.
+    // Infinite or NaN where the lines do not intersect: on neither.
     found.map(|x| x.filter(on_both))
 }
 
-/// Where two circles meet: twice where they touch within rounding.
+/// Intersections of two circles: the same point twice where they are tangent within rounding.
 pub(super) fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64) -> [Option<Vec2>; 2] {
     let line = c2 - c1;
     let distance = line.norm();

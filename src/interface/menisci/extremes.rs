@@ -1,11 +1,11 @@
-//! Where the curvature of menisci between two pieces of wall is largest and smallest: center, circle and both pieces are symmetric there.
+//! Extrema of the curvature of menisci between two pieces of wall: there the configuration of circle and both pieces is symmetric.
 
 use crate::interface::menisci::circle::Circle;
 use crate::interface::menisci::wall::{Piece, Shape};
 use crate::math::Vec2;
 
-/// The circles of largest and smallest curvature among those that meet both pieces, continued to whole circles and lines: their centers
-/// lie on the line of symmetry of both. None for two lines.
+/// The circles of largest and smallest curvature among those that meet both pieces, extended to full circles and lines: their centers lie on the line of
+/// symmetry of both. None for two lines.
 pub(super) fn extreme_circles(one: &Piece, other: &Piece) -> [Option<Circle>; 2] {
     let circle =
         |x: Vec2, k: f64| (x.x.is_finite() && x.y.is_finite() && k.is_finite()).then_some(Circle { x, y: 0.0, k });

@@ -1,4 +1,4 @@
-//! The first touch of an advancing meniscus with a third wall: circles under three conditions, in closed form.
+//! First contact of an advancing meniscus with a third wall: circles under three conditions, in closed form.
 
 use std::f64::consts::PI;
 
@@ -8,12 +8,12 @@ use crate::interface::menisci::path::{Leg, Place, Walls, meets};
 use crate::interface::menisci::wall::{Shape, wrapped};
 use crate::math::{Bounds, Vec2};
 
-/// A wall that a meniscus may touch, lengths over the width of the throat.
+/// A wall that a meniscus may touch, lengths over the throat width.
 pub(super) struct Obstacle {
     curves: Vec<(Curve, Bounds)>,
 }
 
-/// The share of a piece by which a point of touch may lie outside: rounding. Corners between pieces count on their own.
+/// Fraction of a piece by which a point of tangency may lie outside it by rounding. Corners between pieces are tested separately.
 const SLACK: f64 = 1e-9;
 
 impl Obstacle {
@@ -27,12 +27,12 @@ impl Obstacle {
         Self { curves: curves.iter().map(local).map(|curve| (curve, curve.bounds())).collect() }
     }
 
-    /// The curvature at the first touch along a leg.
+    /// The curvature at first contact along a leg.
     pub(crate) fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
         self.first_place(walls, leg).map(|(_, k)| k)
     }
 
-    /// Where a meniscus first touches along a leg, and its curvature.
+    /// The position of the meniscus at first contact along a leg, and its curvature.
     pub(crate) fn first_place(&self, walls: &Walls, leg: &Leg) -> Option<(Place, f64)> {
         let boxed = swept_box(walls, leg);
         let mut first: Option<(f64, Place, f64)> = None;
@@ -67,15 +67,15 @@ impl Obstacle {
     }
 }
 
-/// A box around all menisci of a leg.
+/// A bounding box of all menisci of a leg.
 fn swept_box(walls: &Walls, leg: &Leg) -> Bounds {
     let [a, b] = [leg.start, leg.end].map(|station| walls.meniscus(&station).curve().bounds());
     let both = Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) };
-    // Arcs in between may stick out by the bulge of the walls.
+    // Arcs in between may protrude by the bulge of the walls.
     both.grown(0.25 * both.size().norm())
 }
 
-/// How far along a leg a place is.
+/// The distance of a position along a leg, for comparison.
 fn order_on(leg: &Leg, place: &Place) -> f64 {
     let share = |x: f64, a: f64, b: f64| if a == b { 0.0 } else { (x - a) / (b - a) };
     let (start, end) = (leg.start.place, leg.end.place);
@@ -93,7 +93,7 @@ fn candidates(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, Cir
     found.filter_map(|circle| Some((walls.place_on(leg, &circle)?, circle))).collect()
 }
 
-/// Between straight walls β stays and the chord grows by its share of the way: the condition times the chord is quadratic in the share.
+/// Between straight walls β is constant and the chord is linear in the fraction along the leg: the condition times the chord is quadratic in it.
 fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, Circle)> {
     let value = |share: f64| {
         let station = walls.station(walls.share(leg, share));
@@ -118,7 +118,7 @@ fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, 
         .collect()
 }
 
-/// The condition to touch a curve.
+/// The condition to be tangent to a curve.
 fn touches(curve: &Curve) -> Condition {
     match *curve {
         Curve::Segment { a, .. } => meets_straight(a, curve.normal(0.5), 1.0),
@@ -126,11 +126,11 @@ fn touches(curve: &Curve) -> Condition {
     }
 }
 
-/// Where a circle that touches the line or circle of a curve does so, if that is on the curve.
+/// The point of tangency of a circle with the line or circle of a curve, if it lies on the curve.
 fn touching_point(curve: &Curve, circle: &Circle) -> Option<Vec2> {
     match *curve {
         Curve::Segment { a, b } => {
-            // The normal of the wall leads from the point of touch to the center: t·X = k t·x.
+            // The wall normal points from the point of tangency to the center: t·X = k t·x.
             let along = b - a;
             let square = along.norm_squared();
             let u = if circle.k.abs() * square.sqrt() > 1e-9 {

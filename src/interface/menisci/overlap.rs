@@ -1,14 +1,14 @@
-//! Two menisci that advance towards each other along a wall that they share.
+//! Two menisci that advance towards each other along a common wall.
 //!
-//! They become one where their contacts meet on the wall; earlier, off the wall, where both bulge and the arcs touch first: the defending
-//! pocket behind the place of touch stays on the wall.
+//! They coalesce where their contacts meet on the wall, or earlier, off the wall, where both bulge and the arcs touch first: a pocket of the defending phase
+//! remains on the wall behind that point.
 
 use crate::interface::menisci::meniscus::Meniscus;
 use crate::interface::menisci::passage::Passage;
 
-/// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a shared wall: the left wall of `a`, beyond
-/// its chord, is the right wall of `b` run through the other way. `shared` is the length of that wall between both chords in m. Both
-/// passages are told in one frame.
+/// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a common wall: the left wall of `a`, beyond its chord, is the
+/// right wall of `b` traversed in the opposite direction. `shared` is the length of that wall between both chords in m. Both passages use the same
+/// coordinates.
 pub(crate) fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64> {
     let (from_a, from_b) = (a.lowest()?.curvature, b.lowest()?.curvature);
     let low = from_a.max(from_b);
@@ -25,11 +25,11 @@ pub(crate) fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Opti
     if at_low <= 0.0 { Some(low) } else { Some(first_met(gap, (low, at_low), (high, at_high))) }
 }
 
-/// Where a gap closes between a place with a gap and one without: false position after Illinois, with a halving where that is slow.
+/// Zero of a gap between a state where it is open and one where it is closed: the Illinois false position, with bisection where that converges slowly.
 fn first_met(gap: impl Fn(f64) -> f64, open: (f64, f64), met: (f64, f64)) -> f64 {
     let ((mut low, mut at_low), (mut high, mut at_high)) = (open, met);
     let tolerance = 4.0 * f64::EPSILON * low.abs().max(high.abs());
-    // The width that the interval must fall below, and the steps until then.
+    // The width that the interval must reach, and the steps until then.
     let (mut goal, mut steps) = (0.125 * (high - low), 0);
     let mut was_open = None;
     while high - low > tolerance {
@@ -37,11 +37,11 @@ fn first_met(gap: impl Fn(f64) -> f64, open: (f64, f64), met: (f64, f64)) -> f64
         steps += 1;
         let is_slow = steps > 3 || !share.is_finite();
         let middle = low + (high - low) * if is_slow { 0.5 } else { share };
-        // Close to an end it steps over the root, so that the interval closes from both sides.
+        // Close to an end the trial steps over the root, so that the interval shrinks from both sides.
         let middle = middle.max(low + 0.5 * tolerance).min(high - 0.5 * tolerance);
         let value = gap(middle);
         let is_open = value > 0.0;
-        // The end that stays twice counts half.
+        // An end that is retained twice gets half its weight.
         let weight = if was_open == Some(is_open) { 0.5 } else { 1.0 };
         if is_open {
             (low, at_low, at_high) = (middle, value, at_high * weight);
@@ -56,10 +56,10 @@ fn first_met(gap: impl Fn(f64) -> f64, open: (f64, f64), met: (f64, f64)) -> f64
     high
 }
 
-/// The gap between two menisci without dimension, at most 0 where they have met: between their contacts over the length of the shared
-/// wall, or between their arcs over the radius. Arcs that cross behind both throats do so on paper only.
+/// The dimensionless gap between two menisci, at most 0 where they have met: between their contacts over the length of the common wall, or between their arcs
+/// over the radius. Intersections behind both throats do not count.
 fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
-    // Two contacts held at one edge have met, whatever the rounding of their way there.
+    // Two contacts pinned at the same edge have met, whatever the rounding of their arc lengths.
     const ROUNDING: f64 = 1e-12;
     let contacts = 1.0 - ROUNDING - (a.1.left.advance + b.1.right.advance) / shared;
     if contacts <= 0.0 {
@@ -75,7 +75,7 @@ fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
     } else if arcs > 0.0 {
         contacts.min(arcs)
     } else {
-        // Circles that cross off the arcs tell nothing.
+        // Intersections of the circles off the arcs are irrelevant.
         contacts
     }
 }

@@ -1,11 +1,10 @@
-//! The passage of a meniscus between the two walls of a throat: where it stands, when it bursts, when it touches a third wall.
+//! The passage of a meniscus between the two walls of a throat: its position, its burst, its contact with a third wall.
 //!
-//! All menisci that meet the walls under their angles form a path from behind the throat to ahead of it (see `path`). As the pressure
-//! rises slowly a meniscus goes along the path to the first place of the curvature that is applied; where the curvature of the path falls,
-//! it jumps. At the end of its largest rise it bursts: the throat is passed.
+//! All menisci that meet the walls at their contact angles form a path from behind the throat to ahead of it (see `path`). As the pressure rises slowly a
+//! meniscus moves to the first position on the path that has the applied curvature; where the curvature of the path falls, it jumps (Haines jump). At the end
+//! of the largest rise of the curvature it bursts and has passed the throat.
 //!
-//! Left out: a meniscus that touches its own two walls ahead of its contacts before these get there (in deep notches below 90 degrees);
-//! films; gravity.
+//! Not included: contact of a meniscus with its own two walls ahead of its contacts (in deep notches below 90 degrees); films; gravity.
 
 use crate::geometry::curve::{Curve, cross};
 use crate::interface::menisci::circle::{Circle, circles, has_curvature};
@@ -15,7 +14,7 @@ use crate::interface::menisci::path::{Leg, Place, Station, Walls, held, meets};
 use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, pieces};
 use crate::math::Vec2;
 
-/// The two walls of a throat and all menisci between them, ready for questions.
+/// The two walls of a throat and all menisci between them.
 #[derive(Debug, Clone)]
 pub struct Passage {
     left: Wall,
@@ -25,15 +24,15 @@ pub struct Passage {
     scale: f64,
     /// The stable part of the path: along the largest rise of the curvature, up to the burst.
     path: Vec<Leg>,
-    /// The rest of it: menisci of a given area, which no given pressure holds.
+    /// The rest of the path: menisci of a given area, which are unstable at fixed pressure.
     beyond: Vec<Leg>,
     lowest: Option<Station>,
     highest: Option<Station>,
 }
 
 impl Passage {
-    /// The passage between two walls, seen in the direction of advance: on the left wall curves run with the advance, on the right wall
-    /// against it. Cost grows with the number of parts.
+    /// The passage between two walls, viewed in the direction of advance: curves of the left wall run with the advance, those of the right wall against it.
+    /// The cost grows with the number of parts.
     pub fn new(mut left: Wall, mut right: Wall) -> Self {
         for wall in [&mut left, &mut right] {
             wall.behind = wall.behind.min(wall.parts.len());
@@ -59,21 +58,21 @@ impl Passage {
         &self.right
     }
 
-    /// The meniscus of the largest curvature on the way through: beyond it the throat is passed. It may stand at the end of a wall.
+    /// The meniscus of the largest curvature in the throat: beyond it the throat is passed. It may lie at the end of a wall.
     pub fn burst(&self) -> Option<Meniscus> {
         self.highest.map(|station| self.meniscus(&station))
     }
 
-    /// The meniscus of the smallest curvature before the burst: below it the meniscus draws back out of the throat.
+    /// The meniscus of the smallest curvature before the burst: below it the meniscus recedes from the throat.
     pub(crate) fn lowest(&self) -> Option<Meniscus> {
         self.lowest.map(|station| self.meniscus(&station))
     }
 
-    /// Where the advancing meniscus stands at the curvature `k` (1/m): the first place of the path where the curvature reaches it. The
-    /// lowest one where all are above, nothing beyond the burst.
+    /// The advancing meniscus at the curvature `k` (1/m): the first position on the path where the curvature reaches it. The lowest meniscus if all have a
+    /// larger curvature, `None` beyond the burst.
     pub(crate) fn at(&self, k: f64) -> Option<Meniscus> {
         let (lowest, highest) = (self.lowest?, self.highest?);
-        // The curvature that the burst gives is the burst's, whatever its last digit.
+        // The curvature returned by `burst` must give the burst, whatever its last digit.
         let slack = 8.0 * f64::EPSILON * highest.curvature.abs();
         let k = if (k * self.scale - highest.curvature).abs() <= slack { highest.curvature } else { k * self.scale };
         if k <= lowest.curvature {
@@ -83,7 +82,7 @@ impl Passage {
         Some(self.meniscus(&self.walls.on_leg(rise, k)))
     }
 
-    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall. No angle enters: it is the first contact.
+    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall. Independent of the contact angle there.
     pub(crate) fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
         let up_to = up_to * self.scale;
         let lowest = self.lowest.filter(|lowest| lowest.curvature <= up_to)?;
@@ -91,7 +90,7 @@ impl Passage {
             return Some(lowest.curvature / self.scale);
         }
         let obstacle = Obstacle::new(obstacle, self.origin, self.scale);
-        // The curvature that brings the meniscus so far: the largest one up to there.
+        // The curvature needed to get there: the maximum along the path so far.
         let mut reached = lowest.curvature;
         for leg in self.path.iter().take_while(|leg| leg.start.curvature <= up_to) {
             if let Some(k) = obstacle.first_touch(&self.walls, leg) {
@@ -106,8 +105,8 @@ impl Passage {
         None
     }
 
-    /// The meniscus that first touches a line ahead as more and more area comes through the throat, beyond the burst too: along the walls as far
-    /// as it meets both under their angles, then with its contacts where it stood last. The line is an open side with the pore on its right.
+    /// The meniscus that first touches a line ahead as the area that has passed the throat grows, also beyond the burst: along the walls as far as it meets
+    /// both at their contact angles, then with its contacts at their last positions. The line is an open side with the pore on its right.
     pub(crate) fn reach(&self, line: &Curve) -> Option<Meniscus> {
         let obstacle = Obstacle::new(&[*line], self.origin, self.scale);
         let mut legs = self.path.iter().chain(&self.beyond);
@@ -125,7 +124,7 @@ impl Passage {
         cross(end - self.origin, x - self.origin) >= 0.0
     }
 
-    /// Area in m² that the meniscus has swept since the chord of the throat: between chord, walls and arc.
+    /// Area in m² swept by the meniscus from the chord of the throat: between chord, walls and arc.
     pub(crate) fn swept_area(&self, meniscus: &Meniscus) -> f64 {
         let (p, q) = (self.origin, chord_end(&self.right, Hand::Right).unwrap_or_default());
         let along = |wall: &Wall, contact: &Contact, hand: Hand| {
@@ -171,7 +170,7 @@ impl Walls {
         Meniscus { curvature: station.curvature, left, right, bend: station.bend }
     }
 
-    /// The meniscus of curvature `k` on a leg with k in between.
+    /// The meniscus of curvature `k` on a leg whose curvatures bracket k.
     fn on_leg(&self, leg: &Leg, k: f64) -> Station {
         let Place { left: (i, _), right: (j, _) } = leg.end.place;
         let found = circles([meets(&self.left[i]), meets(&self.right[j]), has_curvature(k)]);
@@ -180,11 +179,11 @@ impl Walls {
         Station { curvature: k, ..station }
     }
 
-    /// The contacts of a circle where both lie on a leg.
+    /// The contacts of a circle if both lie on a leg.
     pub(super) fn place_on(&self, leg: &Leg, circle: &Circle) -> Option<Place> {
         let (start, end) = (leg.start.place, leg.end.place);
         let place = self.contacts((end.left.0, end.right.0), circle)?;
-        // Rounding; a double root has half the digits only.
+        // Rounding; a double root has only half the digits.
         const SLACK: f64 = 1e-7;
         let inside = |x: f64, a: f64, b: f64| x > a.min(b) - SLACK && x < a.max(b) + SLACK;
         let left = inside(place.left.1, start.left.1, end.left.1);
@@ -196,7 +195,7 @@ impl Walls {
 
     fn bisect(&self, leg: &Leg, k: f64) -> Place {
         let (mut low, mut high) = (0.0, 1.0);
-        // As many halvings as there are digits.
+        // One halving per bit of the significand.
         for _ in 0..52 {
             let middle = 0.5 * (low + high);
             let is_below = self.station(self.share(leg, middle)).curvature < k;
@@ -215,15 +214,15 @@ fn contact(piece: &Piece, s: f64) -> Contact {
     Contact { part: piece.part, u, point: piece.point(s), advance: piece.advance_at(s) }
 }
 
-/// Where the chord of the throat ends on a wall.
+/// The end of the throat's chord on a wall.
 fn chord_end(wall: &Wall, hand: Hand) -> Option<Vec2> {
     let begin = if hand == Hand::Left { 0.0 } else { 1.0 };
     let ahead = wall.parts.get(wall.behind).map(|part| part.curve.point(begin));
     ahead.or_else(|| wall.parts.last().map(|part| part.curve.point(1.0 - begin)))
 }
 
-/// The ends of the largest rise of the curvature along the path, the legs in between, and those beyond. Behind the throat curvatures fall, and ahead of it they do so
-/// again: what is larger far behind is no part of the way through.
+/// The ends of the largest rise of the curvature along the path, the legs in between, and those beyond. Curvatures fall behind the throat, and again ahead of
+/// it: larger ones far behind do not belong to the throat.
 fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg>, Vec<Leg>) {
     let Some(start) = path.first().map(|leg| leg.start) else { return (None, None, path, Vec::new()) };
     // Each end with the number of legs before it.
@@ -243,10 +242,10 @@ fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg
     (Some(lowest.0), Some(highest.0), path, beyond)
 }
 
-/// What tests compare with.
+/// Reference quantities for tests.
 #[cfg(test)]
 impl Passage {
-    /// The same throat passed the other way with the phases changed: its burst is the smallest curvature of this passage, times −1.
+    /// The same throat traversed in the opposite direction with the phases exchanged: its burst is minus the smallest curvature of this passage.
     pub(crate) fn reversed(&self) -> Self {
         use crate::interface::menisci::wall::WallPart;
         use std::f64::consts::PI;

@@ -1,10 +1,9 @@
 //! The menisci between two walls, from behind the throat to ahead of it, as one path.
 //!
-//! A meniscus with contacts P on the left and Q on the right leaves the walls in the directions μ_l and μ_r. Both make the angle β with the
-//! chord d = Q − P, so that its polar angle is ψ = (μ_l + μ_r − π)/2, and the curvature is k = 2 sin β/|d|. In the plane of both contacts'
-//! parameters this is a curve, which is followed from the chord of the throat both ways. On every pair of pieces it has a closed form and
-//! runs one way in both parameters, and so do the places where k is largest and smallest: at these center, circle and walls are
-//! symmetric. Between neighboring stations k rises or falls, therefore.
+//! A meniscus with contacts P on the left and Q on the right leaves the walls in the directions μ_l and μ_r. Both make the angle β with the chord d = Q − P,
+//! so that its polar angle is ψ = (μ_l + μ_r − π)/2, and the curvature is k = 2 sin β/|d|. In the plane of both contacts' parameters this is a curve, which
+//! is followed in both directions from the chord of the throat. On every pair of pieces it has a closed form and is monotonic in both parameters, as are the
+//! positions where k is extremal: there center, circle and walls are symmetric. Hence k is monotonic between neighboring stations.
 
 use std::f64::consts::PI;
 
@@ -29,7 +28,7 @@ pub(super) struct Station {
     pub(crate) curvature: f64,
 }
 
-/// A part of the path on one pair of pieces: curvature rises or falls all along it.
+/// A part of the path on one pair of pieces along which the curvature is monotonic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
     pub(crate) start: Station,
@@ -43,7 +42,7 @@ pub(super) struct Walls {
     pub(crate) right: Vec<Piece>,
 }
 
-/// Parameters nearer to an end than this are the end: rounding of the closed forms.
+/// Parameters nearer to an end than this are set to the end: rounding of the closed forms.
 const SNAP: f64 = 1e-12;
 
 fn snapped(s: f64) -> f64 {
@@ -56,9 +55,9 @@ fn snapped(s: f64) -> f64 {
     }
 }
 
-/// Which way the path is followed.
+/// Direction in which the path is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum Sense {
     Forward,
     Backward,
 }
@@ -68,7 +67,7 @@ impl Walls {
         let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
         let d = r.point(place.right.1) - l.point(place.left.1);
         let psi = d.y.atan2(d.x);
-        // The mean of both sides: mirrored walls give the same number.
+        // The mean of both sides, so that mirrored walls give the same number.
         let one = wrapped(l.direction(place.left.1) - psi);
         let other = one + wrapped(psi + PI - r.direction(place.right.1) - one);
         let bend = 0.5 * (one + other);
@@ -78,7 +77,7 @@ impl Walls {
     pub(crate) fn circle(&self, station: &Station) -> Circle {
         let Place { left: (i, s), right: (j, t) } = station.place;
         let (l, r) = (&self.left[i], &self.right[j]);
-        // An edge has its position to the last digit.
+        // The position of an edge is exact.
         let (piece, s) = if r.is_edge() && !l.is_edge() { (r, t) } else { (l, s) };
         Circle::through(piece.point(s), piece.inward(s), station.curvature)
     }
@@ -86,14 +85,14 @@ impl Walls {
     /// All menisci that can be reached from the chord, in the order of the advance.
     pub(crate) fn path(&self, chord: (usize, usize)) -> Vec<Leg> {
         let Some(start) = self.start(chord) else { return Vec::new() };
-        let mut path = self.follow(start, Way::Backward);
+        let mut path = self.follow(start, Sense::Backward);
         path.reverse();
-        path.extend(self.follow(start, Way::Forward));
+        path.extend(self.follow(start, Sense::Forward));
         if path.is_empty() { vec![Leg { start, end: start }] } else { path }
     }
 
-    /// A meniscus with both contacts at the chord; else one at the chord, or as near to it along a wall as there is one, and of two such menisci that
-    /// whose other contact is nearer to the chord.
+    /// A meniscus with both contacts at the chord; else one with a contact at the chord, or nearest to it along a wall, and of two such menisci the one whose
+    /// other contact is nearer to the chord.
     fn start(&self, chord: (usize, usize)) -> Option<Station> {
         let (m, n) = (self.left.len(), self.right.len());
         if m == 0 || n == 0 {
@@ -129,7 +128,7 @@ impl Walls {
         nearest.map(|place| self.station(place))
     }
 
-    /// The contacts at both ends of the chord, where the walls allow one bend there: at an edge a range of them.
+    /// The contacts at both ends of the chord, if the walls have a common bend there: at an edge a range of bends is admissible.
     fn on_chord(&self, chord: (usize, usize)) -> Option<Place> {
         let end = |index: usize, pieces: &[Piece]| if index < pieces.len() { (index, 0.0) } else { (index - 1, 1.0) };
         let (left, right) = (end(chord.0, &self.left), end(chord.1, &self.right));
@@ -144,7 +143,7 @@ impl Walls {
         let (of_left, of_right) = (range(l, left.1, &|mu| mu - psi), range(r, right.1, &|mu| psi + PI - mu));
         let low = (of_left.0 - of_left.1).max(of_right.0 - of_right.1);
         let high = (of_left.0 + of_left.1).min(of_right.0 + of_right.1);
-        // Rounding of directions.
+        // Tolerance for rounding of directions.
         if !(low <= high + SNAP) {
             return None;
         }
@@ -154,12 +153,12 @@ impl Walls {
         Some(Place { left: (left.0, s), right: (right.0, t) })
     }
 
-    fn follow(&self, start: Station, way: Way) -> Vec<Leg> {
+    fn follow(&self, start: Station, sense: Sense) -> Vec<Leg> {
         let mut path = Vec::new();
         let mut now = start;
-        // Each pair of pieces is passed a few times at most; what turns in circles is left there.
+        // The path visits each pair of pieces a few times at most; the bound ends closed loops.
         for _ in 0..8 * (self.left.len() + self.right.len()) {
-            let Some(cell) = self.cell_ahead(&now, way) else { break };
+            let Some(cell) = self.cell_ahead(&now, sense) else { break };
             let Some(exit) = self.far_side(&cell) else { break };
             let mut inner: Vec<Station> = self.extremes(&cell, &exit).into_iter().flatten().collect();
             if inner.len() == 2 && cell.is_beyond(&inner[0], &inner[1]) {
@@ -167,16 +166,16 @@ impl Walls {
             }
             let mut last = Station { place: cell.place, ..now };
             for station in inner.into_iter().chain([exit]) {
-                // Beyond half a turn the arc would go through infinity.
+                // Beyond half a turn the curvature of the arc would be infinite.
                 if (last.bend + self.change_of_bend(&last, &station)).abs() > PI {
-                    if way == Way::Forward {
+                    if sense == Sense::Forward {
                         path.push(self.before_infinity(Leg { start: last, end: station }));
                     }
                     return path;
                 }
-                path.push(match way {
-                    Way::Forward => Leg { start: last, end: station },
-                    Way::Backward => Leg { start: station, end: last },
+                path.push(match sense {
+                    Sense::Forward => Leg { start: last, end: station },
+                    Sense::Backward => Leg { start: station, end: last },
                 });
                 last = station;
             }
@@ -185,11 +184,11 @@ impl Walls {
         path
     }
 
-    /// The part of a leg in which arcs turn by less than half a turn, but for a millionth.
+    /// The part of a leg in which arcs turn by less than half a turn, within 1e-6.
     fn before_infinity(&self, leg: Leg) -> Leg {
         const TURN: f64 = PI * (1.0 - 1e-6);
         let (mut low, mut high) = (0.0, 1.0);
-        // A double has 53 bits.
+        // A double has a 53-bit significand.
         for _ in 0..53 {
             let middle = 0.5 * (low + high);
             let station = self.station(self.share(&leg, middle));
@@ -199,7 +198,7 @@ impl Walls {
         Leg { end: self.station(self.share(&leg, low)), ..leg }
     }
 
-    /// A place on a leg, by the share of the way of the contact that goes farther over its piece.
+    /// The position at a fraction of a leg, measured by the contact that moves farther on its piece.
     pub(crate) fn share(&self, leg: &Leg, share: f64) -> Place {
         let (start, end) = (leg.start.place, leg.end.place);
         let (i, j) = (end.left.0, end.right.0);
@@ -224,11 +223,11 @@ impl Walls {
     }
 
     /// The pair of pieces that the path enters, and the signs of both contacts' motion there.
-    fn cell_ahead(&self, now: &Station, way: Way) -> Option<Cell> {
+    fn cell_ahead(&self, now: &Station, sense: Sense) -> Option<Cell> {
         let mut place = now.place;
-        // A corner of four pairs is left after three changes.
+        // At a corner of four pairs at most three changes are needed.
         for _ in 0..4 {
-            let signs = self.motion(place, way);
+            let signs = self.motion(place, sense);
             let left = entered(place.left, signs.0, self.left.len())?;
             let right = entered(place.right, signs.1, self.right.len())?;
             if (left, right) == (place.left, place.right) {
@@ -239,17 +238,17 @@ impl Walls {
         None
     }
 
-    /// The signs of both contacts' motion along the path: the level line of F = μ_l + μ_r − 2 ψ − π, F > 0 on its left contact's side.
-    fn motion(&self, place: Place, way: Way) -> (f64, f64) {
+    /// The signs of both contacts' motion along the path: the level line of F = μ_l + μ_r − 2 ψ − π, with F > 0 on the side of its left contact.
+    fn motion(&self, place: Place, sense: Sense) -> (f64, f64) {
         let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
         let d = r.point(place.right.1) - l.point(place.left.1);
         let ((p, turn_l), (q, turn_r)) = (l.rates(place.left.1), r.rates(place.right.1));
         let square = d.norm_squared();
         let left = turn_l + 2.0 * cross(d, p) / square;
         let right = turn_r - 2.0 * cross(d, q) / square;
-        match way {
-            Way::Forward => (-right, left),
-            Way::Backward => (right, -left),
+        match sense {
+            Sense::Forward => (-right, left),
+            Sense::Backward => (right, -left),
         }
     }
 
@@ -261,7 +260,7 @@ impl Walls {
         let (s_far, t_far) = (far(cell.signs.0), far(cell.signs.1));
         let t_there = r.answer(l.point(s_far), l.direction(s_far));
         let s_there = l.answer(r.point(t_far), r.direction(t_far));
-        // By how much an answer lies outside of what is left of the piece.
+        // The distance by which an answer lies outside the rest of the piece.
         let outside = |answer: Option<f64>, from: f64, to: f64| {
             answer.map_or(f64::INFINITY, |x| (from.min(to) - x).max(x - from.max(to)).max(0.0))
         };
@@ -278,7 +277,7 @@ impl Walls {
         Some(self.station(Place { left: (i, s), right: (j, t) }))
     }
 
-    /// Places of the largest and smallest curvature strictly between entry and exit of a pair of pieces.
+    /// Positions of the extremal curvatures strictly between entry and exit of a pair of pieces.
     fn extremes(&self, cell: &Cell, exit: &Station) -> [Option<Station>; 2] {
         let Place { left: (i, s0), right: (j, t0) } = cell.place;
         let ((_, s1), (_, t1)) = (exit.place.left, exit.place.right);
@@ -292,7 +291,7 @@ impl Walls {
         })
     }
 
-    /// The contacts of a circle that meets both pieces; not held to them. Nothing for two straight pieces, where k need not tell the place.
+    /// The contacts of a circle that meets both pieces, possibly outside them. `None` for two straight pieces, where k does not determine the position.
     pub(crate) fn contacts(&self, (i, j): (usize, usize), circle: &Circle) -> Option<Place> {
         let (l, r) = (&self.left[i], &self.right[j]);
         let (s, t) = match (turned(l, circle), turned(r, circle)) {
@@ -320,7 +319,7 @@ impl Cell {
     }
 }
 
-/// The indices 0 to `len` by their distance from `from`.
+/// The indices 0 to `len` ordered by their distance from `from`.
 fn outward(from: usize, len: usize) -> impl Iterator<Item = usize> {
     (0..=len)
         .flat_map(move |k| [Some(from + k), from.checked_sub(k).filter(|_| k > 0)])
@@ -328,7 +327,7 @@ fn outward(from: usize, len: usize) -> impl Iterator<Item = usize> {
         .filter(move |&i| i <= len)
 }
 
-/// The piece and parameter from which a contact goes on with the sign of its motion; nothing at the end of the wall.
+/// The piece and parameter from which a contact continues, given the sign of its motion; `None` at the end of the wall.
 fn entered((index, s): (usize, f64), sign: f64, len: usize) -> Option<(usize, f64)> {
     if s >= 1.0 && sign > 0.0 {
         (index + 1 < len).then_some((index + 1, 0.0))
@@ -339,22 +338,22 @@ fn entered((index, s): (usize, f64), sign: f64, len: usize) -> Option<(usize, f6
     }
 }
 
-/// The number in the range of two others, rounding at its ends taken off.
+/// The number clamped to the range between two others.
 pub(super) fn held(x: f64, a: f64, b: f64) -> f64 {
     snapped(x.clamp(a.min(b), a.max(b)))
 }
 
-/// The parameter of a circle's contact on a round piece, or at an edge.
+/// The parameter of a circle's contact on a circular piece, or at an edge.
 fn turned(piece: &Piece, circle: &Circle) -> Option<f64> {
     let Shape::Turn { center, radius } = piece.shape else { return None };
-    // X − k c = k R n + v, and v is n turned by the contact angle.
+    // X − k c = k R n + v, where v is n rotated by the contact angle.
     let x = circle.x - center * circle.k;
     let (sin, cos) = piece.angle.sin_cos();
     let turn = (-piece.hand.sign() * sin).atan2(circle.k * radius + cos);
     Some(piece.parameter(x.y.atan2(x.x) - turn - piece.offset))
 }
 
-/// The condition to meet a piece under its angle.
+/// The condition to meet a piece at its contact angle.
 pub(super) fn meets(piece: &Piece) -> Condition {
     let cos = piece.angle.cos();
     match piece.shape {

@@ -1,9 +1,8 @@
-//! Walls along which contact lines advance, as pieces on which a contact moves in closed form.
+//! Walls along which contact lines advance, divided into pieces on which the motion of a contact has a closed form.
 //!
-//! A contact is its point P and the direction μ (polar angle) in which the interface leaves the wall there. Along a smooth piece of angle
-//! θ, μ turns with the wall. At an edge, and where the angle of the wall changes, P stays and μ turns: between θ on the near face and θ on
-//! the far face, the condition of Gibbs. At a corner that is open to the pore μ turns backwards: the limit of a fillet of vanishing radius,
-//! over which the contact jumps.
+//! A contact is given by its point P and the direction μ (polar angle) in which the interface leaves the wall. Along a smooth piece of contact angle θ, μ
+//! rotates with the wall. At an edge, and where the contact angle of the wall changes, P is pinned and μ rotates: between θ on the near face and θ on the far
+//! face, the Gibbs condition. At a reentrant corner μ rotates backwards: the limit of a fillet of vanishing radius, across which the contact jumps.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -13,7 +12,7 @@ use crate::math::{Vec2, perpendicular};
 /// A piece of a wall and the contact angle on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallPart {
-    /// Where the wall runs, solid on the left; positions in m.
+    /// Geometry of the piece, solid on the left; positions in m.
     pub curve: Curve,
     /// Contact angle through the defending phase in rad, 0 to π.
     pub angle: f64,
@@ -22,9 +21,9 @@ pub struct WallPart {
 /// A wall along which a contact advances: parts in the order of the advance. Curves keep their orientation, solid on the left.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Wall {
-    /// The parts in the order of the advance; each begins where the one before ends.
+    /// The parts in the order of the advance; each begins where the previous one ends.
     pub parts: Vec<WallPart>,
-    /// How many of them lie behind the chord of the throat: the chord ends where they end.
+    /// Number of parts behind the chord of the throat: the chord ends where they end.
     pub behind: usize,
 }
 
@@ -42,7 +41,7 @@ impl Wall {
     }
 }
 
-/// On which hand of the advance a wall lies.
+/// Side of the direction of advance on which a wall lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hand {
     /// Wall curves run with the advance.
@@ -64,13 +63,13 @@ impl Hand {
 /// Where the interface meets a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Index of the part of the wall; at an edge the part before it.
+    /// Index of the part of the wall; at an edge that of the part before it.
     pub part: usize,
     /// Parameter on its curve.
     pub u: f64,
     /// Position in m.
     pub point: Vec2,
-    /// Length of wall from the chord of the throat to the contact in m; below 0 behind the chord.
+    /// Arc length of wall from the chord of the throat to the contact in m; below 0 behind the chord.
     pub advance: f64,
 }
 
@@ -80,12 +79,12 @@ pub(super) struct Piece {
     pub(crate) shape: Shape,
     /// Direction of the interface at both ends, continuous along the wall.
     pub(crate) direction: [f64; 2],
-    /// Contact angle; 0 at an edge, where no angle enters.
+    /// Contact angle; 0 at an edge, where it does not enter.
     pub angle: f64,
-    /// Polar angle of the wall's normal less `direction`.
+    /// Polar angle of the wall normal minus `direction`.
     pub(crate) offset: f64,
     pub part: usize,
-    /// Length of wall from the chord to the start.
+    /// Arc length of wall from the chord to the start.
     pub advance: f64,
     pub(crate) length: f64,
     pub(crate) hand: Hand,
@@ -93,9 +92,9 @@ pub(super) struct Piece {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Shape {
-    /// From `a` on along `along`.
+    /// From `a` along the vector `along`.
     Straight { a: Vec2, along: Vec2 },
-    /// About a center: round walls, radius below 0 where the solid is concave, and edges of radius 0.
+    /// About a center: circular walls, radius below 0 where the solid is concave, and edges of radius 0.
     Turn { center: Vec2, radius: f64 },
 }
 
@@ -104,7 +103,7 @@ impl Piece {
         self.direction[0] + s * (self.direction[1] - self.direction[0])
     }
 
-    /// The normal of the wall, out of the solid. At an edge: of the tangent that would meet the interface under the angle 0.
+    /// The normal of the wall, out of the solid. At an edge: of the tangent that would meet the interface at the angle 0.
     pub(crate) fn normal(&self, s: f64) -> Vec2 {
         unit(self.direction(s) + self.offset)
     }
@@ -117,18 +116,18 @@ impl Piece {
         }
     }
 
-    /// From the contact towards the center of a circle of positive curvature.
+    /// Unit vector from the contact towards the center of a circle of positive curvature.
     pub(crate) fn inward(&self, s: f64) -> Vec2 {
-        // The interface leaves along `direction`; its center lies behind it.
+        // The interface leaves the wall along `direction`; its center lies behind it.
         unit(self.direction(s) - self.hand.sign() * FRAC_PI_2)
     }
 
-    /// Length of wall from the chord to the contact.
+    /// Arc length of wall from the chord to the contact.
     pub(crate) fn advance_at(&self, s: f64) -> f64 {
         self.advance + s * self.length
     }
 
-    /// The change of the contact point and of the direction with `s`.
+    /// Derivatives of the contact point and of the direction with respect to `s`.
     pub(crate) fn rates(&self, s: f64) -> (Vec2, f64) {
         let turn = self.direction[1] - self.direction[0];
         match self.shape {
@@ -141,15 +140,15 @@ impl Piece {
         self.length == 0.0
     }
 
-    /// The parameter of the polar angle `direction`, in the turn nearest to the piece; not held to 0..1.
+    /// The parameter of the polar angle `direction`, in the turn nearest to the piece; not limited to 0..1.
     pub(crate) fn parameter(&self, direction: f64) -> f64 {
         let [from, to] = self.direction;
         let middle = 0.5 * (from + to);
         0.5 + wrapped(direction - middle) / (to - from)
     }
 
-    /// The contact on this piece of a circle that meets the other wall in `p`, leaving it in the polar angle `direction`; not held to
-    /// 0..1. The chord makes the same angle with the interface at both of its ends.
+    /// The contact on this piece of a circle that meets the other wall at `p`, leaving it at the polar angle `direction`; not limited to 0..1. The chord
+    /// makes the same angle with the interface at both of its ends.
     pub(crate) fn answer(&self, p: Vec2, direction: f64) -> Option<f64> {
         match self.shape {
             Shape::Straight { a, along } => {
@@ -160,7 +159,7 @@ impl Piece {
                 (across.abs() > 1e-14 * along.norm()).then_some(s)
             }
             Shape::Turn { center, radius } => {
-                // With χ half of the direction asked for: A sin χ + B cos χ = 0.
+                // With χ half of the direction sought: A sin χ + B cos χ = 0.
                 let g = 0.5 * (direction - PI);
                 let (sin, cos) = g.sin_cos();
                 let (shifted_sin, shifted_cos) = (g - self.offset).sin_cos();
@@ -173,13 +172,13 @@ impl Piece {
     }
 }
 
-/// The angle less whole turns, from −π to π.
+/// The angle modulo 2π, from −π to π.
 pub(super) fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 
-/// The pieces of a wall, lengths divided by `scale` and positions from `origin`, and the index of the first one ahead of the chord: the edge there
-/// if there is one.
+/// The pieces of a wall, lengths divided by `scale` and positions relative to `origin`, and the index of the first one ahead of the chord: the edge there, if
+/// any.
 pub(super) fn pieces(wall: &Wall, hand: Hand, origin: Vec2, scale: f64) -> (Vec<Piece>, usize) {
     let mut pieces: Vec<Piece> = Vec::with_capacity(2 * wall.parts.len());
     let mut first_ahead = 0;

@@ -1,4 +1,4 @@
-//! From the entities of a DXF file to filled shapes: blocks expanded, layers chosen, lines put together.
+//! From the entities of a DXF file to filled shapes: blocks expanded, layers selected, lines joined.
 
 use std::collections::BTreeMap;
 
@@ -13,11 +13,11 @@ use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outli
 use crate::geometry::import::limits::Budget;
 use crate::math::{Bounds, Vec2};
 
-/// Blocks within blocks.
+/// Maximum nesting depth of blocks.
 const DEEPEST: usize = 64;
-/// Groups that an entity may have for each item of the budget.
+/// Number of groups of an entity per item of the budget.
 const GROUPS_PER_ITEM: usize = 32;
-/// Messages after which the rest of a file is not looked at.
+/// Number of messages after which reading stops.
 const MOST_REFUSALS: usize = 20;
 
 /// The drawing of a file.
@@ -51,18 +51,18 @@ pub(crate) fn drawing(
 struct Reader<'a> {
     file: &'a File<'a>,
     layers: Option<&'a [String]>,
-    /// Ends of lines that are so near meet, in units of the drawing.
+    /// Distance within which ends of lines are joined, in units of the drawing.
     join_within: f64,
-    /// Polylines with a width.
+    /// Number of polylines with a width.
     wide: usize,
     budget: Budget,
-    /// The blocks that are being inserted, against insertions into themselves.
+    /// The blocks being inserted, to detect recursive insertions.
     inserting: Vec<String>,
     drawing: Drawing,
-    /// Pieces with free ends and their places, by layer.
+    /// Pieces with free ends and their source locations, by layer.
     open: BTreeMap<String, Vec<(Piece, String)>>,
     refusals: Vec<Refusal>,
-    /// Whether the rest of the file is no longer looked at.
+    /// Whether reading has stopped.
     is_over: bool,
 }
 
@@ -78,7 +78,7 @@ impl Reader<'_> {
         self.is_over |= self.refusals.len() >= MOST_REFUSALS;
     }
 
-    /// Takes from the budget; false, and told, where it is used up.
+    /// Takes from the budget; false, with a message, if it is exhausted.
     fn spend(&mut self, items: usize, place: impl Fn() -> String) -> bool {
         let has_room = self.budget.spend(items);
         if !has_room && !self.is_over {
@@ -89,12 +89,12 @@ impl Reader<'_> {
         has_room
     }
 
-    /// Reads entities; `around` is the layer of the insertion that they belong to.
+    /// Reads entities; `around` is the layer of the enclosing insertion.
     fn records(&mut self, records: &[Record], map: &Affine, around: Option<&str>) {
         let mut at = 0;
         while at < records.len() && !self.is_over {
             let record = &records[at];
-            // Long entities without vertices, as long texts, cost time alone.
+            // Long entities without vertices, such as long texts, cost only time.
             if !self.spend(1 + record.groups.len() / GROUPS_PER_ITEM, || record.place()) {
                 return;
             }
@@ -121,7 +121,7 @@ impl Reader<'_> {
             let group = record.groups.iter().find(|group| group.code == code);
             group.and_then(|group| group.whole().ok()).is_some_and(|value| value != 0)
         };
-        // What a block holds on layer 0 is on the layer of the insertion.
+        // Entities of a block on layer 0 are on the layer of the insertion.
         let own = record.layer();
         let layer = if own == "0" { around.unwrap_or("0") } else { &own };
         let state = self.file.layers.get(layer).copied().unwrap_or_default();
@@ -133,7 +133,7 @@ impl Reader<'_> {
         }
         match content {
             Content::Unused(kind) => self.count(&kind, 1),
-            // A frozen insertion takes along what it holds on other layers, one that is off does not.
+            // A frozen insertion hides its entities on other layers too, one that is off does not.
             Content::Insert(_) if state.is_frozen && self.layers.is_none() => {
                 self.count("entities on layers that are off or frozen", 1)
             }
@@ -236,7 +236,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Puts lines and arcs of each layer together.
+    /// Joins lines and arcs of each layer.
     fn join(&mut self) {
         let mut branches = 0;
         for (layer, open) in std::mem::take(&mut self.open) {
@@ -244,7 +244,7 @@ impl Reader<'_> {
             let size = extent(&pieces);
             let gap = self.join_within.max(CLOSING_GAP * size);
             let chains = chains(&pieces, gap);
-            self.tell_gaps(&chains.free, &open, size);
+            self.report_gaps(&chains.free, &open, size);
             for (first, ring) in chains.rings {
                 self.closed(&ring, gap, (open[first].1.clone(), &layer));
             }
@@ -265,8 +265,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Tells the small gaps between free ends of lines.
-    fn tell_gaps(&mut self, free: &[(Vec2, usize)], open: &[(Piece, String)], size: f64) {
+    /// Reports the small gaps between free ends of lines.
+    fn report_gaps(&mut self, free: &[(Vec2, usize)], open: &[(Piece, String)], size: f64) {
         let ends: Vec<Vec2> = free.iter().map(|(end, _)| *end).collect();
         let gaps = gaps(&ends, size);
         let Some(Gap { width, ends: [a, b] }) = gaps.first().copied() else { return };
@@ -287,7 +287,7 @@ impl Reader<'_> {
     }
 }
 
-/// The diagonal of the box around ends and middles of pieces.
+/// The diagonal of the bounding box of ends and midpoints of pieces.
 fn extent(pieces: &[Piece]) -> f64 {
     let points = pieces.iter().flat_map(|piece| piece.ends().into_iter().chain([piece.middle()]));
     Bounds::around(points).map_or(0.0, |bounds| bounds.size().norm())

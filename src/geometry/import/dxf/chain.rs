@@ -1,7 +1,7 @@
-//! Lines and arcs that meet at their ends, put together to closed rings.
+//! Lines and arcs joined at their ends into closed rings.
 //!
-//! Ends within a gap are one point. Pieces drawn twice count once. What leads to a dead end is open. Where more than two pieces meet,
-//! they are followed in the order of the file.
+//! Ends within a gap coincide. Duplicate pieces count once. Chains with a dead end are open. Where more than two pieces meet, they are followed in file
+//! order.
 
 use std::collections::BTreeMap;
 
@@ -9,32 +9,32 @@ use crate::geometry::import::contour::Piece;
 use crate::geometry::import::nodes::Nodes;
 use crate::math::Vec2;
 
-/// What became of the pieces.
+/// Result of joining.
 #[derive(Debug, Default)]
 pub(crate) struct Chains {
-    /// Rings, each by its pieces in order, all run through the same way, with the index of its first piece.
+    /// Rings, each by its pieces in order and in the same direction, with the index of its first piece.
     pub(crate) rings: Vec<(usize, Vec<Piece>)>,
     /// Pieces that belong to no ring.
     pub(crate) open: usize,
-    /// Ends of these at which no other piece ends, each with the index of its piece.
+    /// Their free ends, each with the index of its piece.
     pub(crate) free: Vec<(Vec2, usize)>,
-    /// Pieces that lie on another one.
+    /// Number of duplicate pieces.
     pub(crate) doubled: usize,
-    /// Points where more than two pieces meet.
+    /// Number of points where more than two pieces meet.
     pub(crate) branches: usize,
 }
 
-/// The chains of pieces; ends within `gap` meet.
+/// The chains of pieces; ends within `gap` are joined.
 pub(crate) fn chains(pieces: &[Piece], gap: f64) -> Chains {
     let mut chains = Chains::default();
     let mut nodes = Nodes::new(gap);
     let mut middles = Nodes::new(gap);
-    let mut seen = BTreeMap::new();
-    // The ends of each piece that takes part.
+    let mut known = BTreeMap::new();
+    // The ends of each piece that is used.
     let mut ends: Vec<Option<[usize; 2]>> = Vec::with_capacity(pieces.len());
     for piece in pieces {
         let [a, b] = piece.ends().map(|end| nodes.number(end));
-        let is_new = seen.insert([a.min(b), a.max(b), middles.number(piece.middle())], ()).is_none();
+        let is_new = known.insert([a.min(b), a.max(b), middles.number(piece.middle())], ()).is_none();
         chains.doubled += usize::from(!is_new);
         chains.open += usize::from(is_new && a == b);
         ends.push((is_new && a != b).then_some([a, b]));
@@ -56,7 +56,7 @@ pub(crate) fn chains(pieces: &[Piece], gap: f64) -> Chains {
         let Some([start, mut at]) = ends[first].take() else { continue };
         let mut ring = vec![pieces[first].clone()];
         while at != start {
-            // Pieces before the cursor are used up.
+            // Pieces before the cursor are already used.
             while at_node[at].get(cursor[at]).is_some_and(|&piece| ends[piece].is_none()) {
                 cursor[at] += 1;
             }
@@ -74,7 +74,7 @@ pub(crate) fn chains(pieces: &[Piece], gap: f64) -> Chains {
     chains
 }
 
-/// Takes out pieces with a free end until there are none; how many they were.
+/// Removes pieces with a free end until there are none; returns their number.
 fn prune(ends: &mut [Option<[usize; 2]>], at_node: &[Vec<usize>]) -> usize {
     let mut degree: Vec<usize> = at_node.iter().map(Vec::len).collect();
     let mut free: Vec<usize> = (0..degree.len()).filter(|&node| degree[node] == 1).collect();
@@ -109,7 +109,7 @@ mod tests {
             line([1.0, 1.0], [1.0, 1e-9]),
             line([1.0, 1.0], [0.0, 1.0]),
             line([0.0, 0.0], [0.0, 1.0]),
-            // Twice the same, backwards; a tail of two; one far away.
+            // The same piece twice, reversed; a tail of two; a distant one.
             line([1.0, 0.0], [0.0, 0.0]),
             line([1.0, 1.0], [2.0, 2.0]),
             line([2.0, 2.0], [3.0, 2.0]),

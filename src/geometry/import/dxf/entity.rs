@@ -1,5 +1,4 @@
-//! The entities of DXF as pieces of contours: lines, arcs, circles, polylines with bulges, ellipses, splines, filled quadrangles,
-//! and insertions of blocks.
+//! The entities of DXF as pieces of contours: lines, arcs, circles, polylines with bulges, ellipses, splines, filled quadrangles, and insertions of blocks.
 
 use std::f64::consts::TAU;
 
@@ -13,28 +12,28 @@ use crate::geometry::import::limits::is_in_range;
 use crate::geometry::import::spline::{BSpline, through_points};
 use crate::math::{Vec2, perpendicular};
 
-/// A polyline whose ends are nearer than this share of its size is closed.
+/// A polyline whose ends are nearer than this fraction of its size is closed.
 pub(crate) const CLOSING_GAP: f64 = 1e-6;
-/// Full turns, to the digits that programs write.
+/// Tolerance of full turns, for the digits that programs write.
 const FULL_TURN: f64 = 1e-9;
-/// A normal nearer to the z axis than this (sine of the angle) is that axis.
+/// A normal within this angle (sine) of the z axis is parallel to it.
 const UPRIGHT: f64 = 1e-6;
 
-/// What an entity is.
+/// Content of an entity.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Content {
-    /// Pieces that follow each other.
+    /// Consecutive pieces.
     Contour {
         /// The pieces.
         pieces: Vec<Piece>,
         /// Whether they enclose an area.
         is_closed: bool,
     },
-    /// Closed outlines of what a polyline with a width covers.
+    /// Closed outlines of the area of a polyline with a width.
     Wide(Vec<Vec<Piece>>),
     /// Copies of a block.
     Insert(Insert),
-    /// Nothing that encloses an area, under the name by which it is counted.
+    /// No enclosed area, with the name under which it is counted.
     Unused(String),
 }
 
@@ -43,15 +42,15 @@ pub(crate) enum Content {
 pub(crate) struct Insert {
     /// The name of the block, in capitals.
     pub(crate) block: String,
-    /// From the block's coordinates, seen from its base point, to the first copy.
+    /// From the block's coordinates relative to its base point to the first copy.
     pub(crate) map: Affine,
     /// Number of columns and rows.
     pub(crate) number: [i64; 2],
-    /// From each column, and each row, to the next.
+    /// Displacement between columns, and between rows.
     pub(crate) steps: [Vec2; 2],
 }
 
-/// The first entity of `records` and how many records it takes: a POLYLINE is followed by its vertices.
+/// The first entity of `records` and the number of records it occupies: a POLYLINE is followed by its vertices.
 pub(crate) fn read(records: &[Record]) -> Result<(Content, usize), Refusal> {
     let Some(record) = records.first() else { return Ok((Content::Unused(String::new()), 1)) };
     let kind = record.kind();
@@ -68,7 +67,7 @@ pub(crate) fn read(records: &[Record]) -> Result<(Content, usize), Refusal> {
         "POLYLINE" => return polyline(records),
         "SPLINE" => spline(&fields)?,
         "SOLID" | "TRACE" => {
-            // The corners stand in the order of a Z; a triangle repeats its last one.
+            // The corners are in the order of a Z; a triangle repeats its last one.
             let [a, b, c] = [fields.point(0)?, fields.point(1)?, fields.point(2)?];
             let d = if fields.has(13) { fields.point(3)? } else { c };
             let lines = [[a, b], [b, d], [d, c], [c, a]].into_iter().filter(|[a, b]| a != b);
@@ -125,7 +124,7 @@ impl<'a> Fields<'a, '_> {
         if radius > 0.0 { Ok(radius) } else { Err(self.refusal(&format!("radius {radius}"), "a radius above 0")) }
     }
 
-    /// The point of each group of the code `code`; y follows behind code + 10.
+    /// The point of each group of the code `code`; y follows with code + 10.
     fn points(&self, code: i32) -> Result<Vec<Vec2>, Refusal> {
         let mut points: Vec<Vec2> = Vec::new();
         for group in self.0.groups {
@@ -144,13 +143,13 @@ impl<'a> Fields<'a, '_> {
         self.0.groups.iter().filter(|group| group.code == code).map(Group::real).collect()
     }
 
-    /// Whether the normal points up (1) or down (-1); 0: the entity does not lie in the plane.
+    /// 1 if the normal points up, -1 if it points down, 0 if the entity is not in the plane.
     fn side(&self) -> Result<f64, Refusal> {
         let [x, y, z] = [self.real_or(210, 0.0)?, self.real_or(220, 0.0)?, self.real_or(230, 1.0)?];
         Ok(if x.hypot(y) <= UPRIGHT * z.abs() { z.signum() } else { 0.0 })
     }
 
-    /// Object coordinates to those of the drawing: a normal that points down mirrors x (arbitrary axis algorithm).
+    /// From object coordinates to those of the drawing: a normal that points down mirrors x (arbitrary axis algorithm).
     fn in_plane(&self, content: Content) -> Result<Content, Refusal> {
         let side = self.side()?;
         let map = Affine::scaling(side, 1.0);
@@ -174,7 +173,7 @@ impl<'a> Fields<'a, '_> {
     }
 }
 
-/// The angle from `start` to `end` counter-clockwise, a full turn where they agree.
+/// The counter-clockwise angle from `start` to `end`, a full turn if they are equal.
 fn sweep(start: f64, end: f64) -> f64 {
     let sweep = (end - start).rem_euclid(TAU);
     if sweep <= FULL_TURN || sweep >= TAU - FULL_TURN { TAU } else { sweep }
@@ -225,7 +224,7 @@ fn polyline(records: &[Record]) -> Result<(Content, usize), Refusal> {
     /// Flags of group 70.
     const CLOSED: i64 = 1;
     const MESH: i64 = 16 | 64;
-    /// Flag of a vertex that only guides a spline.
+    /// Flag of a control vertex of a spline.
     const GUIDE: i64 = 16;
     let fields = Fields(&records[0]);
     let number = records[1..].iter().take_while(|record| record.head.begins("VERTEX")).count();
@@ -272,7 +271,7 @@ fn from_vertices(fields: &Fields, vertices: &[Vertex], is_closed: bool) -> Resul
     Ok(contour(pieces, is_closed))
 }
 
-/// Whether the last point lies on the first.
+/// Whether the last point coincides with the first.
 fn ends_meet(mut points: impl Iterator<Item = Vec2>) -> bool {
     let Some(first) = points.next() else { return false };
     let (low, high, last) =

@@ -1,22 +1,22 @@
-//! Gaps between lines that would close if their ends met.
+//! Gaps between ends of lines.
 
 use crate::math::Vec2;
 
-/// Gaps wider than this share of the size of the lines are none.
+/// Maximum width of a gap over the size of the lines.
 const WIDEST: f64 = 1e-3;
-/// Ends that are looked at; a drawing with more open lines is a sketch.
+/// Maximum number of ends; a drawing with more open lines is a sketch.
 const MOST: usize = 100_000;
 
-/// A gap between two free ends, by their numbers.
+/// A gap between two free ends, by their indices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    /// How wide it is.
+    /// Its width.
     pub(crate) width: f64,
     /// The ends.
     pub(crate) ends: [usize; 2],
 }
 
-/// For each free end of a line the gap to the nearest other one, each once, the widest first.
+/// The gap from each free end of a line to the nearest other one, each once, the widest first.
 pub(crate) fn gaps(ends: &[Vec2], size: f64) -> Vec<Gap> {
     let reach = WIDEST * size;
     let mut order: Vec<usize> = (0..ends.len().min(MOST)).collect();

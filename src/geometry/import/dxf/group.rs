@@ -1,36 +1,36 @@
-//! Groups, what every DXF file consists of: a code and a value, as two lines of text or in binary.
+//! Groups, the elements of every DXF file: a code and a value, as two lines of text or in binary.
 
 use std::borrow::Cow;
 
 use crate::geometry::import::drawing::Refusal;
 
-/// How a binary file begins.
+/// Signature of a binary file.
 const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Group<'a> {
-    /// The code, which tells what the value means.
+    /// The code, which determines the meaning of the value.
     pub(crate) code: i32,
     /// The value.
     pub(crate) value: Value<'a>,
-    /// Line of the value in a text file, byte of the group in a binary one.
+    /// Line of the value in a text file, byte offset of the group in a binary one.
     pub(crate) position: usize,
 }
 
-/// A value as the file holds it.
+/// A value as stored in the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Value<'a> {
     /// A line of a text file, or a string of a binary one.
     Text(&'a [u8]),
     /// A binary real.
     Real(f64),
-    /// A binary whole number.
+    /// A binary integer.
     Whole(i64),
 }
 
 impl<'a> Group<'a> {
-    /// The value as text, without blanks around it. Bytes that are no UTF-8 are taken for Latin-1, as old files have them.
+    /// The value as text, trimmed. Bytes that are not UTF-8 are decoded as Latin-1, as in old files.
     pub(crate) fn text(&self) -> Cow<'a, str> {
         match self.value {
             Value::Text(bytes) => match std::str::from_utf8(bytes) {
@@ -42,7 +42,7 @@ impl<'a> Group<'a> {
         }
     }
 
-    /// Whether this begins something: a section, an entity, a table.
+    /// Whether this is the start of something: a section, an entity, a table.
     pub(crate) fn begins(&self, name: &str) -> bool {
         self.code == 0 && self.text() == name
     }
@@ -57,7 +57,7 @@ impl<'a> Group<'a> {
         number.filter(|number| number.is_finite()).ok_or_else(|| self.refusal("a finite number"))
     }
 
-    /// The value as a whole number.
+    /// The value as an integer.
     pub(crate) fn whole(&self) -> Result<i64, Refusal> {
         match self.value {
             Value::Whole(number) => Ok(number),
@@ -72,7 +72,7 @@ impl<'a> Group<'a> {
     }
 }
 
-/// All groups of a file but comments.
+/// All groups of a file except comments.
 pub(crate) fn groups(bytes: &[u8]) -> Result<Vec<Group<'_>>, Refusal> {
     match bytes.strip_prefix(BINARY) {
         Some(rest) => binary(rest),
@@ -87,7 +87,7 @@ fn text(bytes: &[u8]) -> Result<Vec<Group<'_>>, Refusal> {
     while let Some((at, line)) = lines.next() {
         let code = std::str::from_utf8(line).ok().and_then(|line| line.parse::<i32>().ok());
         let Some(code) = code else {
-            // Blank lines at the end are no group.
+            // Blank lines at the end are not a group.
             if line.is_empty() && lines.by_ref().all(|(_, rest)| rest.is_empty()) {
                 break;
             }
@@ -127,7 +127,7 @@ fn binary(bytes: &[u8]) -> Result<Vec<Group<'_>>, Refusal> {
     Ok(groups)
 }
 
-/// Reads a binary file from the front; `None` where it ends too early.
+/// Reads a binary file from the front; `None` if it ends too early.
 struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -145,7 +145,7 @@ impl<'a> Reader<'a> {
     }
 
     fn group(&mut self, is_old: bool) -> Option<Group<'a>> {
-        /// In old files, what tells that two bytes of code follow.
+        /// In old files, the marker for a two-byte code.
         const LONG_CODE: u8 = 255;
         let first = if is_old { self.array::<1>()?[0] } else { LONG_CODE };
         let code = if first == LONG_CODE { i32::from(u16::from_le_bytes(self.array()?)) } else { i32::from(first) };

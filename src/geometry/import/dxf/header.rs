@@ -6,17 +6,17 @@ use super::group::Group;
 use crate::geometry::import::drawing::{Refusal, Unit};
 use crate::math::Vec2;
 
-/// An entity as the file holds it.
+/// An entity as stored in the file.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record<'a> {
-    /// The groups behind its kind.
+    /// The groups after its kind.
     pub(crate) groups: &'a [Group<'a>],
-    /// The group that names its kind.
+    /// The group with its kind.
     pub(crate) head: &'a Group<'a>,
 }
 
 impl Record<'_> {
-    /// What it is: `LINE`, `CIRCLE`.
+    /// Its kind: `LINE`, `CIRCLE`.
     pub(crate) fn kind(&self) -> String {
         self.head.text().into_owned()
     }
@@ -29,7 +29,7 @@ impl Record<'_> {
         }
     }
 
-    /// The layer; `0` where none is named.
+    /// The layer; `0` by default.
     pub(crate) fn layer(&self) -> String {
         self.groups
             .iter()
@@ -38,19 +38,19 @@ impl Record<'_> {
     }
 }
 
-/// A layer: whether what is on it is drawn.
+/// The visibility of a layer.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Layer {
-    /// Frozen: nothing within a block on it is drawn either.
+    /// Frozen: entities of blocks inserted on it are hidden too.
     pub is_frozen: bool,
     /// Off.
     pub is_off: bool,
 }
 
-/// Entities under a name.
+/// Named entities.
 #[derive(Debug, Default)]
 pub(crate) struct Block<'a> {
-    /// The point that an insertion puts in its place.
+    /// The base point, which an insertion maps to its position.
     pub(crate) base: Vec2,
     /// Its entities.
     pub(crate) records: Vec<Record<'a>>,
@@ -59,11 +59,11 @@ pub(crate) struct Block<'a> {
 /// A DXF file in parts.
 #[derive(Debug, Default)]
 pub(crate) struct File<'a> {
-    /// The unit that the header names.
+    /// The unit given in the header.
     pub(crate) unit: Option<Unit>,
     /// Layers by name.
     pub(crate) layers: BTreeMap<String, Layer>,
-    /// Blocks by name, capitals alike.
+    /// Blocks by name, case-insensitive.
     pub(crate) blocks: BTreeMap<String, Block<'a>>,
     /// The entities outside of blocks.
     pub(crate) records: Vec<Record<'a>>,
@@ -107,7 +107,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Groups split where one of code 0 begins something.
+/// Groups split at those of code 0.
 fn records<'a>(groups: &'a [Group<'a>]) -> Vec<Record<'a>> {
     let heads: Vec<usize> = (0..groups.len()).filter(|&i| groups[i].code == 0).collect();
     let ends = heads.iter().skip(1).copied().chain([groups.len()]);

@@ -7,7 +7,7 @@ use crate::geometry::import::drawing::Outline;
 use crate::geometry::import::drawing::seen::{area, only};
 use crate::math::Vec2;
 
-/// Groups in short: `0 LINE; 8 walls; 10 0.5`.
+/// Groups in short notation: `0 LINE; 8 walls; 10 0.5`.
 fn lines(groups: &str) -> String {
     let groups = groups.split(';').map(str::trim).filter(|group| !group.is_empty());
     groups
@@ -53,7 +53,7 @@ fn a_circle_in_any_entity_is_the_same_disc() {
         "0 LWPOLYLINE; 90 3; 70 0; 10 1; 20 4; 42 -1; 10 5; 20 4; 42 -1; 10 1; 20 4",
         "0 POLYLINE; 70 1; 0 VERTEX; 10 1; 20 4; 42 1; 0 VERTEX; 10 5; 20 4; 42 1; 0 SEQEND",
         "0 ELLIPSE; 10 3; 20 4; 11 0; 21 2; 40 1; 41 0; 42 6.283185307179586",
-        // Seen from below x is mirrored; the axes of an ellipse are those of the drawing.
+        // A normal that points down mirrors x; the axes of an ellipse are those of the drawing.
         "0 CIRCLE; 10 -3; 20 4; 40 2; 210 0; 220 0; 230 -1",
         "0 ELLIPSE; 10 3; 20 4; 11 2; 21 0; 40 1; 230 -1",
     ] {
@@ -83,7 +83,7 @@ fn areas_of_outlines_are_those_of_closed_formulas() {
             PI,
             1e-5,
         ),
-        // The upper half seen from below is the lower one.
+        // The mirrored upper half is the lower one.
         (
             "0 ELLIPSE; 10 0; 20 0; 11 2; 21 0; 40 0.5; 41 0; 42 3.141592653589793; 230 -1; 0 LINE; 10 -2; 20 0; 11 2; 21 0",
             PI,
@@ -115,7 +115,7 @@ fn a_spline_with_fit_points_only_goes_through_them() {
     let points: String =
         (0..=16).map(|k| (k % 16) as f64 * PI / 8.0).map(|t| format!("; 11 {}; 21 {}", t.cos(), t.sin())).collect();
     let drawing = drawn(&format!("0 SPLINE; 70 11; 71 3; 74 17{points}"));
-    // The interpolation lies within (2π/16)⁴/384 = 6e-5 of the circle.
+    // The interpolation error is (2π/16)⁴/384 = 6e-5 of the radius.
     assert!((area(only(&drawing)) / PI - 1.0).abs() < 1e-4);
 }
 
@@ -131,7 +131,7 @@ fn blocks_are_expanded_turned_scaled_and_repeated() {
     assert_discs(&read_with("0 INSERT; 2 POST; 10 5; 20 5; 41 2; 42 2; 43 2; 50 90"), &[[5.0, 7.0, 1.0]]);
     assert_discs(&read_with("0 INSERT; 2 POST; 10 5; 20 5; 41 -1; 42 1"), &[[4.0, 5.0, 0.5]]);
     assert_discs(&read_with("0 INSERT; 2 POST; 10 -5; 20 5; 230 -1"), &[[4.0, 5.0, 0.5]]);
-    // Steps turn with the insertion, but are not scaled.
+    // Steps rotate with the insertion, but are not scaled.
     let rows = "0 INSERT; 2 POST; 10 0; 20 0; 41 2; 42 2; 50 90; 70 1; 71 3; 45 10";
     assert_discs(&read_with(rows), &[[0.0, 2.0, 1.0], [-10.0, 2.0, 1.0], [-20.0, 2.0, 1.0]]);
     assert_discs(&read_with("0 INSERT; 2 Row; 10 0; 20 9; 41 2; 42 2"), &[[2.0, 9.0, 1.0], [8.0, 9.0, 1.0]]);
@@ -199,7 +199,7 @@ fn units_are_those_of_the_header_and_places_those_of_handles() {
     assert!(read(old.as_bytes(), None, None).unwrap().unit.is_none());
 }
 
-/// The drawing of another program: the crate `dxf` writes it.
+/// A drawing of another program, written by the crate `dxf`.
 fn by_other_program() -> dxf::Drawing {
     use dxf::entities::{Circle, Entity, EntityType, Insert, LwPolyline};
     use dxf::{Block, LwPolylineVertex, Point};
@@ -323,7 +323,7 @@ fn five_thousand_circles_take_milliseconds() {
     let text = file("", &circles);
     let begin = std::time::Instant::now();
     assert_eq!(read(text.as_bytes(), None, None).unwrap().entities.len(), 5000);
-    // Aim .05 s; wide, for a debug build on a busy machine.
+    // Expected .05 s; a wide margin, for a debug build on a busy machine.
     let taken = begin.elapsed().as_secs_f64();
     assert!(taken < 2.0, "{taken} s");
 }

@@ -1,4 +1,4 @@
-//! Polylines with a width: the band along the line, with mitred corners and straight ends, and the inside of a closed one.
+//! Polylines with a width: the band along the line, with mitred corners and flat ends, and the inside of a closed one.
 
 use std::f64::consts::PI;
 
@@ -10,18 +10,18 @@ use crate::geometry::import::drawing::Ring;
 use crate::geometry::rings::faults;
 use crate::math::{Vec2, perpendicular};
 
-/// Lengths below this share of the size of the polyline count as none.
+/// Lengths below this fraction of the size of the polyline count as zero.
 const TOLERANCE: f64 = 1e-9;
-/// A mitre reaches at most so many half widths from its corner; sharper corners are cut off.
+/// Maximum length of a mitre over the half width; sharper corners are cut off.
 const MITRE: f64 = 4.0;
 
-/// Edges that a polyline with a width may have: each is compared with all that it overlaps.
+/// Maximum number of edges of a polyline with a width: each is compared with all that it overlaps.
 const MOST: usize = 5000;
 
-/// A vertex of a polyline: the edge that begins there has this bulge and these widths at its two ends.
+/// A vertex of a polyline: the edge that starts there has this bulge and these widths at its two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Vertex {
-    /// Where it is.
+    /// Its position.
     pub(crate) point: Vec2,
     /// The tangent of a quarter of the angle of the edge.
     pub(crate) bulge: f64,
@@ -35,7 +35,7 @@ struct Edge {
     half: [f64; 2],
 }
 
-/// The closed outlines of what a polyline covers; what was found instead, and what was expected.
+/// The closed outlines of the area covered by a polyline; on failure what was found, and what was expected.
 pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<Piece>>, (String, &'static str)> {
     if let Some(width) = vertices.iter().flat_map(|v| v.width).find(|width| !(*width >= 0.0)) {
         return Err((format!("a width of {width}"), "widths of 0 or more"));
@@ -95,7 +95,7 @@ fn bulge(curve: &Curve) -> f64 {
     if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 }
 }
 
-/// What the width of an edge covers, each ring counter-clockwise; nothing where it has none.
+/// The area covered by an edge, each ring counter-clockwise; empty without width.
 fn band(edge: &Edge, tolerance: f64) -> Result<Vec<Ring>, (String, &'static str)> {
     let [a, b] = edge.half;
     if a.max(b) <= tolerance {
@@ -146,7 +146,7 @@ fn band(edge: &Edge, tolerance: f64) -> Result<Vec<Ring>, (String, &'static str)
     }
 }
 
-/// What fills the outer side of a corner between two edges; none where they run on smoothly or have no width.
+/// The fill of the outer side of a corner between two edges; `None` if they join smoothly or have no width.
 fn joint(before: &Edge, after: &Edge, tolerance: f64) -> Option<Ring> {
     let (t, s) = (before.curve.tangent(1.0), after.curve.tangent(0.0));
     let turn = cross(t, s).atan2(t.dot(&s));
@@ -158,7 +158,7 @@ fn joint(before: &Edge, after: &Edge, tolerance: f64) -> Option<Ring> {
     let side = -turn.signum();
     let [from, to] = [(t, a), (s, b)].map(|(along, half)| corner + perpendicular(along) * (side * half));
     let mut points = vec![corner, from];
-    // Widths differ at steps of the width, which have no mitre.
+    // At steps of the width, where the widths differ, there is no mitre.
     let reach = 1.0 / (0.5 * turn).cos();
     if (a - b).abs() <= tolerance && reach <= MITRE {
         let across = (from - corner) + (to - corner);
@@ -168,7 +168,7 @@ fn joint(before: &Edge, after: &Edge, tolerance: f64) -> Option<Ring> {
     Some(Ring { vertices: points.iter().map(|p| [p.x, p.y, 0.0]).collect() })
 }
 
-/// The ring as pieces, without vertices within straight edges.
+/// The ring as pieces, without vertices on straight edges.
 fn pieces(ring: &Ring, tolerance: f64) -> Vec<Piece> {
     let n = ring.vertices.len();
     let at = |i: usize| Vec2::new(ring.vertices[i % n][0], ring.vertices[i % n][1]);
@@ -192,7 +192,7 @@ mod tests {
         Vertex { point: Vec2::new(x, y), bulge, width: [width; 2] }
     }
 
-    /// Area and number of outlines; holes count below 0.
+    /// Area and number of outlines; the area of holes is negative.
     fn covered(vertices: &[Vertex], is_closed: bool) -> (f64, usize) {
         let all = outlines(vertices, is_closed).unwrap();
         let areas = all.iter().map(|pieces| match close(pieces, 1e-12) {

@@ -1,13 +1,13 @@
-//! A smooth curve as few arcs: pairs of arcs with a common tangent (biarcs) through chosen points.
+//! A smooth curve as few arcs: pairs of arcs with a common tangent (biarcs) through selected points.
 
 use super::super::drawing::Ring;
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
-/// Arcs stay this near to the smooth curve, over the root mean square of the noise: they add nothing to it that is seen.
+/// Distance of arcs from the smooth curve over the root mean square of the noise: small enough to be invisible.
 const TOLERANCE: f64 = 0.5;
 
-/// A vertex of a chain of arcs: position, bulge of the arc that begins there, and the tangent there.
+/// A vertex of a chain of arcs: position, bulge of the arc that starts there, and the tangent there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex {
     pub(crate) point: Vec2,
@@ -15,26 +15,26 @@ pub(super) struct Vertex {
     pub(crate) tangent: Vec2,
 }
 
-/// The two arcs between two points with given tangents, as the joint and both bulges; none where they turn by more than a half turn.
+/// The two arcs between two points with given tangents, as the joint and both bulges; `None` if they turn by more than a half turn.
 fn biarc((p, t): (Vec2, Vec2), (q, s): (Vec2, Vec2)) -> Option<(Vec2, f64, f64)> {
     let (v, sum, bend) = (q - p, t + s, 2.0 * (1.0 - t.dot(&s)));
     let along = v.dot(&sum);
-    // The positive root of bend d² + 2 along d = v², written so that it holds for parallel tangents.
+    // The positive root of bend d² + 2 along d = v², in a form valid for parallel tangents.
     let reach = v.norm_squared() / (along + (along * along + bend * v.norm_squared()).sqrt());
     if !(reach > 0.0 && reach.is_finite()) {
         return None;
     }
     let joint = 0.5 * (p + t * reach + q - s * reach);
     let (first, last) = (joint - p, q - joint);
-    // Between a tangent and the chord lies half of the angle of the arc.
+    // The angle between a tangent and the chord is half of the angle of the arc.
     let from = cross(t, first).atan2(t.dot(&first));
     let to = cross(last, s).atan2(last.dot(&s));
     let is_small = from.abs().max(to.abs()) < std::f64::consts::FRAC_PI_4;
     is_small.then(|| (joint, (0.5 * from).tan(), (0.5 * to).tan()))
 }
 
-/// Few arcs through the points, near to all of them as the `noise` (rms, in pixels) allows. Closed: the last arc ends in the first
-/// vertex. Open: the last vertex ends the line and has no arc.
+/// Few arcs through the points, as near to all of them as the `noise` (rms, in pixels) requires. Closed: the last arc ends at the first vertex. Open: the
+/// last vertex ends the line and has no arc.
 pub(super) fn arcs((points, tangents): (&[Vec2], &[Vec2]), is_closed: bool, noise: f64) -> Vec<Vertex> {
     let n = points.len();
     let last = if is_closed { n } else { n - 1 };
@@ -55,7 +55,7 @@ pub(super) fn arcs((points, tangents): (&[Vec2], &[Vec2]), is_closed: bool, nois
     let mut vertices = Vec::new();
     let mut i = 0;
     while i < last {
-        // Double the span while it fits, then halve between the last that fits and the first that does not.
+        // Double the span while it fits, then bisect between the last that fits and the first that does not.
         let (mut good, mut bad) = (i + 1, i + 2);
         while bad <= last && fits(i, bad) {
             (good, bad) = (bad, i + 2 * (bad - i));
@@ -93,12 +93,12 @@ fn curves(vertices: &[Vertex], is_closed: bool) -> impl Iterator<Item = Curve> {
         .map(move |i| Curve::from_bulge(vertices[i].point, vertices[(i + 1) % n].point, vertices[i].bulge))
 }
 
-/// ½ ∫ (x dy − y dx) about the origin: of a closed chain its area.
+/// ½ ∫ (x dy − y dx) about the origin: for a closed chain its area.
 pub(super) fn area(vertices: &[Vertex], is_closed: bool) -> f64 {
     curves(vertices, is_closed).map(|curve| curve.area_about(Vec2::zeros())).sum()
 }
 
-/// The length of the edges of a closed chain that begin at a vertex with a tangent.
+/// The length of the edges of a closed chain that start at a vertex with a tangent.
 pub(super) fn movable_length(vertices: &[Vertex]) -> f64 {
     let n = vertices.len();
     let edges = (0..n).map(|i| (&vertices[i], &vertices[(i + 1) % n]));
@@ -106,7 +106,7 @@ pub(super) fn movable_length(vertices: &[Vertex]) -> f64 {
     movable.map(|(a, b)| Curve::from_bulge(a.point, b.point, a.bulge).length()).sum()
 }
 
-/// Moves a chain of arcs out of the solid: arcs about the same centers. Vertices without a tangent stay.
+/// Displaces a chain of arcs out of the solid: arcs keep their centers. Vertices without a tangent stay.
 pub(super) fn move_out(vertices: &mut [Vertex], by: f64) {
     for vertex in vertices {
         vertex.point -= perpendicular(vertex.tangent) * by;
@@ -133,7 +133,7 @@ mod tests {
             (0..count).map(|k| perpendicular(unit(at(k))).component_mul(&Vec2::new(a, b)).normalize()).collect();
         let vertices = arcs((&points, &tangents), true, noise);
         assert!(vertices.len() < 40, "{} arcs", vertices.len());
-        // The arcs may lie anywhere within the tolerance along the whole ellipse; in truth they alternate about it.
+        // The arcs may lie anywhere within the tolerance along the whole ellipse; in practice they alternate about it.
         assert!((area(&vertices, true) - 0.5 * TAU * a * b).abs() < TOLERANCE * noise * movable_length(&vertices));
         let mut out = vertices.clone();
         move_out(&mut out, 1.0);

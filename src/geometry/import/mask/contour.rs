@@ -1,15 +1,15 @@
-//! Marching squares over the pixel centers: lines where the share of solid passes one half, solid on the left.
+//! Marching squares on the pixel centers: lines where the solid fraction equals one half, solid on the left.
 //!
-//! A line is closed, or it begins and ends on the outermost pixel centers. A cell whose solid corners lie across is solid in the
-//! middle where the mean of its corners is one half or more, so that a line never crosses itself or another.
+//! A line is closed, or it starts and ends on the outermost pixel centers. A saddle cell is solid in the middle if the mean of its corners is one half or
+//! more, so that lines never cross themselves or each other.
 
 use super::pixels::Solid;
 use crate::math::Vec2;
 
-/// Up, left, down, right: each a quarter turn to the left of the one before.
+/// Up, left, down, right: each rotated by a quarter turn to the left from the previous one.
 const STEPS: [[isize; 2]; 4] = [[0, 1], [-1, 0], [0, -1], [1, 0]];
 
-/// A place where a line passes between two pixel centers.
+/// A point where a line passes between two pixel centers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Crossing {
     /// Index of the solid pixel, on the left.
@@ -57,18 +57,18 @@ impl Grid<'_> {
         self.moved(at.solid as usize, [dy, -dx]).unwrap_or(at.solid as usize)
     }
 
-    /// The two pixels ahead: beyond the solid one and beyond the pore one; none at the edge of the image.
+    /// The two pixels ahead: beyond the solid one and beyond the pore one; `None` at the edge of the image.
     pub(crate) fn ahead(&self, at: Crossing) -> Option<[usize; 2]> {
         let step = STEPS[at.heading as usize];
         Some([self.moved(at.solid as usize, step)?, self.moved(self.pore(at), step)?])
     }
 
-    /// Where the line passes.
+    /// Position of the line.
     pub(crate) fn point(&self, at: Crossing) -> Vec2 {
         self.point_within(at, 0.0)
     }
 
-    /// The same, but clear of the pixel centers, where lines may touch.
+    /// The same, but away from the pixel centers, where lines may touch.
     pub(crate) fn apart(&self, at: Crossing) -> Vec2 {
         const CLEAR: f64 = 0.05;
         self.point_within(at, CLEAR)
@@ -85,7 +85,7 @@ impl Grid<'_> {
         0.5 * (self.center(at.solid as usize) + self.center(self.pore(at)))
     }
 
-    /// The next crossing and the turn to the left that leads there, in quarter turns; none at the edge of the image.
+    /// The next crossing and the turn to the left towards it, in quarter turns; `None` at the edge of the image.
     fn next(&self, at: Crossing) -> Option<(Crossing, i64)> {
         let [left, right] = self.ahead(at)?;
         let pore = self.pore(at);
@@ -107,12 +107,12 @@ impl Grid<'_> {
         Some((Crossing { solid: solid as u32, heading }, turn))
     }
 
-    fn trace(&self, start: Crossing, seen: &mut [u64]) -> Line {
+    fn trace(&self, start: Crossing, visited: &mut [u64]) -> Line {
         let mut line = Line { crossings: Vec::new(), is_closed: false, turns: 0 };
         let mut at = start;
         loop {
             if at.heading == 0 {
-                seen[at.solid as usize / 64] |= 1 << (at.solid % 64);
+                visited[at.solid as usize / 64] |= 1 << (at.solid % 64);
             }
             line.crossings.push(at);
             let Some((next, turn)) = self.next(at) else { return line };
@@ -128,7 +128,7 @@ impl Grid<'_> {
     /// All lines: the open ones counter-clockwise by their start along the edge of the image, then the closed ones by their first pixel.
     pub(crate) fn lines(&self) -> Vec<Line> {
         let (width, height) = (self.solid.width, self.solid.height);
-        let mut seen = vec![0_u64; (width * height).div_ceil(64)];
+        let mut visited = vec![0_u64; (width * height).div_ceil(64)];
         let mut lines = Vec::new();
         // Upwards from the bottom row, leftwards from the right column, downwards from the top row, rightwards from the left column.
         let bottom = (0..width - 1).map(|i| (i, 0_u8));
@@ -138,12 +138,12 @@ impl Grid<'_> {
         for (solid, heading) in bottom.chain(right).chain(top).chain(left) {
             let start = Crossing { solid: solid as u32, heading };
             if self.is_solid(solid) && !self.is_solid(self.pore(start)) {
-                lines.push(self.trace(start, &mut seen));
+                lines.push(self.trace(start, &mut visited));
             }
         }
         for node in (0..width * height).filter(|node| node % width + 1 < width) {
-            if self.is_solid(node) && !self.is_solid(node + 1) && seen[node / 64] >> (node % 64) & 1 == 0 {
-                lines.push(self.trace(Crossing { solid: node as u32, heading: 0 }, &mut seen));
+            if self.is_solid(node) && !self.is_solid(node + 1) && visited[node / 64] >> (node % 64) & 1 == 0 {
+                lines.push(self.trace(Crossing { solid: node as u32, heading: 0 }, &mut visited));
             }
         }
         lines

@@ -1,13 +1,12 @@
 //! Masks: images of grains in a pore, PNG or TIFF, turned into smooth outlines in pixels.
 //!
-//! The contour runs where the linearly interpolated gray value passes the threshold (marching squares). A ring that is a circle within
-//! what pixels can tell is read as a disc; any other one is smoothed within the same bounds (a spline that bends as little as the
-//! pixels allow) and written as arcs. Both keep the area: that of the pixels, partly covered ones counted by their gray value. A
-//! contour of straight pieces alone lies 0.14 κ pixels inside of a wall of curvature κ per pixel. Walls that leave the image go straight
-//! on outside of it. Measured: areas of discs in gray images within 0.1 % from a radius of 5 pixels on; in black and white images that of the
-//! mean of many, since the number of pixels in one disc scatters (the circle problem of Gauss).
+//! The contour lies where the linearly interpolated gray value equals the threshold (marching squares). A ring that is a circle within the pixel noise is
+//! read as a disc; any other one is smoothed within the same bounds (a spline that bends as little as the pixels allow) and converted to arcs. Both preserve
+//! the area: that of the pixels, with partly covered ones weighted by their gray value. A contour of straight segments alone lies 0.14 κ pixels inside a wall
+//! of curvature κ per pixel. Walls that leave the image continue straight outside it. Measured: areas of discs in gray images within 0.1 % from a radius of 5
+//! pixels on; in black and white images that of the mean of many, since the number of pixels in one disc scatters (Gauss circle problem).
 //!
-//! Left out: stacks of images, and walls that are blurred over more than two pixels (their areas are those of the contour).
+//! Not supported: stacks of images, and walls blurred over more than two pixels (their areas are those of the contour).
 
 mod arcs;
 mod circle;
@@ -22,24 +21,24 @@ use outlines::Outlines;
 use crate::geometry::import::drawing::{Drawing, Refusal, Unit};
 use crate::math::{Bounds, Vec2};
 
-/// How a mask is read.
+/// Options for reading a mask.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MaskOptions {
-    /// Gray value that divides solid from pore, above 0 (black) and below 1 (white); one half where there is none.
+    /// Gray value that separates solid from pore, above 0 (black) and below 1 (white); one half by default.
     pub threshold: Option<f64>,
-    /// Bright is solid; else dark is.
+    /// Whether bright pixels are solid, rather than dark ones.
     pub invert: bool,
     /// Side of a pixel in m.
     pub pixel_size: Option<f64>,
 }
 
-/// Gray value that divides solid from pore where no other is given.
+/// Default gray value that separates solid from pore.
 const THRESHOLD: f64 = 0.5;
 
 /// Reads a PNG or TIFF image. The drawing is in pixels: x to the right, y up, the image's lower left corner at the origin.
 ///
 /// # Errors
-/// What is wrong with the file, the threshold or the image.
+/// Problems of the file, the threshold or the image.
 pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>> {
     let threshold = options.threshold.unwrap_or(THRESHOLD);
     if !(threshold > 0.0 && threshold < 1.0) {

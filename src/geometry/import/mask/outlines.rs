@@ -1,8 +1,7 @@
-//! From contour lines to discs and areas: the area that each line must hold, its smooth form, and which hole lies in which grain.
+//! From contour lines to discs and areas: the area enclosed by each line, its smooth form, and the assignment of holes to grains.
 //!
-//! The area of a ring of pixels is that of the polygon through the middles between solid and pore pixels plus an eighth for each turn
-//! to the left less one for each to the right (so half a pixel more for every ring); partly covered pixels beside the line then add
-//! what they hold, or take what they lack.
+//! The area of a ring of pixels is that of the polygon through the midpoints between solid and pore pixels plus an eighth for each turn to the left minus one
+//! for each to the right (half a pixel for every ring); partly covered pixels along the line then add or subtract their fraction.
 
 use rayon::prelude::*;
 
@@ -15,22 +14,22 @@ use crate::geometry::import::drawing::{Entity, FillRule, Outline, Paint, Ring};
 use crate::geometry::rings::{RingFault, faults, meetings};
 use crate::math::Vec2;
 
-/// Around a place where walls meet, crossings within so many pixels are rough, at first; then twice as many, and so on.
+/// Initial radius in pixels around an intersection of walls within which crossings are rough; it doubles in each round.
 const ROUGH: f64 = 2.0;
-/// So often rough places grow before whole lines are rough.
+/// Number of rounds in which rough regions grow before whole lines are rough.
 const ROUNDS: i32 = 6;
 
-/// What the lines of an image are.
+/// Result of evaluating the lines of an image.
 pub(super) struct Outlines {
     /// The grains.
     pub(crate) entities: Vec<Entity>,
-    /// Specks, which are left out.
+    /// Number of specks, which are ignored.
     pub(crate) specks: usize,
-    /// Places where smooth walls would meet, so that the contour is kept there.
+    /// Number of points where smooth walls would intersect, so that the contour is kept there.
     pub(crate) rough: usize,
 }
 
-/// The rings of a grain, outer one first, with the lines that each is made of.
+/// The rings of a grain, outer one first, with the lines of each.
 struct Grain {
     first: usize,
     rings: Vec<(Ring, Vec<usize>)>,
@@ -42,15 +41,15 @@ pub(super) fn outlines(solid: &Solid) -> Outlines {
     let lines = grid.lines();
     let visits = visits(&grid, &lines);
     let owner = owners(&grid, &lines);
-    // What becomes of each line at its crossings; all is smooth where the list is empty.
+    // Treatment of each line at its crossings; if the list is empty all are smooth.
     let mut rough: Vec<Vec<At>> = vec![Vec::new(); lines.len()];
     let wall = |k: usize, rough: &[Vec<At>]| Wall::of(&grid, &lines[k], &visits, &rough[k]);
     let mut walls: Vec<Option<Wall>> = (0..lines.len()).into_par_iter().map(|k| wall(k, &rough)).collect();
     let mut found = grains(&grid, &lines, &walls, &owner);
-    let mut places = 0;
+    let mut intersections = 0;
     for round in 0..=ROUNDS {
-        let faulty: Vec<(Vec<Vec2>, Vec<usize>)> = found.par_iter().filter_map(faulty_places).collect();
-        places = places.max(faulty.iter().map(|(at, _)| at.len().max(1)).sum());
+        let faulty: Vec<(Vec<Vec2>, Vec<usize>)> = found.par_iter().filter_map(faulty_points).collect();
+        intersections = intersections.max(faulty.iter().map(|(at, _)| at.len().max(1)).sum());
         let mut changed: Vec<usize> = Vec::new();
         for (at, of) in faulty {
             for k in of {
@@ -77,11 +76,11 @@ pub(super) fn outlines(solid: &Solid) -> Outlines {
     }
     let specks = walls.iter().filter(|wall| wall.is_none()).count();
     let entities = found.into_iter().map(|grain| entity(&grid, &lines, &walls, grain)).collect();
-    Outlines { entities, specks, rough: places }
+    Outlines { entities, specks, rough: intersections }
 }
 
-/// Where the rings of a grain meet that must not, and their lines; none where they are sound. No place: a hole that is not within its ring.
-fn faulty_places(grain: &Grain) -> Option<(Vec<Vec2>, Vec<usize>)> {
+/// Invalid intersections of the rings of a grain, and their lines; `None` if the rings are valid. No intersection: a hole outside its ring.
+fn faulty_points(grain: &Grain) -> Option<(Vec<Vec2>, Vec<usize>)> {
     let curves: Vec<Vec<Curve>> = grain.rings.iter().map(|(ring, _)| bulged_ring(&ring.vertices).collect()).collect();
     let found = faults(&curves);
     if found.is_empty() {
@@ -137,14 +136,14 @@ fn entity(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>], Grain { first
     Entity { outline, paint: Paint::Filled, place }
 }
 
-/// For each hole the line of the grain that it lies in: seen from its first pixel to the left, the next line is the grain's, or that
-/// of another hole of the same grain that begins before (Suzuki, Abe 1985). Index `lines.len()` is the edge of the image.
+/// The line of the grain that contains each hole: to the left of its first pixel, the next line is that of the grain, or of another hole of the same grain
+/// with an earlier start (Suzuki, Abe 1985). Index `lines.len()` is the edge of the image.
 fn owners(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
     let is_hole = |k: usize| lines[k].is_closed && lines[k].turns < 0;
     if !(0..lines.len()).any(is_hole) {
         return vec![None; lines.len()];
     }
-    // All crossings that go down, with their line.
+    // All downward crossings, with their line.
     let mut down: Vec<(u32, usize)> = Vec::new();
     for (index, line) in lines.iter().enumerate() {
         down.extend(line.crossings.iter().filter(|at| at.heading == 2).map(|at| (at.solid, index)));
@@ -155,14 +154,14 @@ fn owners(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
     for k in (0..lines.len()).filter(|&k| is_hole(k)) {
         let Some(start) = lines[k].crossings.first() else { continue };
         let row = start.solid as usize / grid.solid.width * grid.solid.width;
-        let place = down.partition_point(|&(node, _)| node <= start.solid);
-        owner[k] = match down[..place].last().filter(|(node, _)| *node as usize >= row) {
+        let after = down.partition_point(|&(node, _)| node <= start.solid);
+        owner[k] = match down[..after].last().filter(|(node, _)| *node as usize >= row) {
             None => Some(lines.len()),
             Some(&(_, other)) if is_hole(other) => owner[other],
             Some(&(_, other)) if lines[other].is_closed => Some(other),
             Some(&(_, other)) => Some(group[other]),
         };
-        // What reaches the left edge of the image belongs to the grain that leaves it there.
+        // If the left edge of the image is reached, the grain is the one that leaves the image there.
         if owner[k] == Some(lines.len()) {
             owner[k] = Some(edge_owner(grid, lines, &group, row));
         }
@@ -170,8 +169,8 @@ fn owners(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
     owner
 }
 
-/// Where a place on the edge of the image lies: the way counter-clockwise from the lower left corner.
-fn way(grid: &Grid<'_>, p: Vec2) -> f64 {
+/// Position of a point on the edge of the image: arc length counter-clockwise from the lower left corner.
+fn edge_position(grid: &Grid<'_>, p: Vec2) -> f64 {
     let (w, h) = (grid.solid.width as f64 - 1.0, grid.solid.height as f64 - 1.0);
     let (x, y) = (p.x - 0.5, p.y - 0.5);
     if y <= 0.0 {
@@ -188,7 +187,7 @@ fn way(grid: &Grid<'_>, p: Vec2) -> f64 {
 fn ends(grid: &Grid<'_>, lines: &[Line]) -> Vec<(f64, usize)> {
     let start = |(k, line): (usize, &Line)| {
         let first = line.crossings.first().filter(|_| !line.is_closed)?;
-        Some((way(grid, grid.middle(*first)), k))
+        Some((edge_position(grid, grid.middle(*first)), k))
     };
     let mut starts: Vec<(f64, usize)> = lines.iter().enumerate().filter_map(start).collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -200,14 +199,14 @@ fn followers(grid: &Grid<'_>, lines: &[Line]) -> Vec<Option<usize>> {
     let starts = ends(grid, lines);
     let next = |line: &Line| {
         let last = line.crossings.last().filter(|_| !line.is_closed)?;
-        let at = way(grid, grid.middle(*last));
-        let place = starts.partition_point(|start| start.0 <= at);
-        starts.get(place).or(starts.first()).map(|start| start.1)
+        let at = edge_position(grid, grid.middle(*last));
+        let after = starts.partition_point(|start| start.0 <= at);
+        starts.get(after).or(starts.first()).map(|start| start.1)
     };
     lines.iter().map(next).collect()
 }
 
-/// For each open line the first of the open lines around the same grain.
+/// For each open line the first one around the same grain.
 fn edge_groups(grid: &Grid<'_>, lines: &[Line]) -> Vec<usize> {
     let next = followers(grid, lines);
     let mut group: Vec<usize> = vec![usize::MAX; lines.len()];
@@ -221,18 +220,18 @@ fn edge_groups(grid: &Grid<'_>, lines: &[Line]) -> Vec<usize> {
     group
 }
 
-/// The group of the grain that holds the first pixel of a row; `lines.len()` where no line leaves the image.
+/// The group of the grain that contains the first pixel of a row; `lines.len()` if no line leaves the image.
 fn edge_owner(grid: &Grid<'_>, lines: &[Line], group: &[usize], row: usize) -> usize {
     let starts = ends(grid, lines);
-    let at = way(grid, grid.center(row));
+    let at = edge_position(grid, grid.center(row));
     let place = starts.partition_point(|start| start.0 < at);
     starts.get(place).or(starts.first()).map_or(lines.len(), |start| group[start.1])
 }
 
-/// Rings of the grains that leave the image, closed outside of it, each with the index of its first line and all its lines.
+/// Rings of the grains that leave the image, closed outside it, each with the index of its first line and all its lines.
 fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<(usize, Ring, Vec<usize>)> {
     let (w, h) = (grid.solid.width as f64, grid.solid.height as f64);
-    // Far enough for every distance that is asked for within the image.
+    // Beyond all distances queried within the image.
     let beyond = w.max(h);
     let corners = [
         Vec2::new(-beyond, -beyond),
@@ -240,7 +239,7 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
         Vec2::new(w + beyond, h + beyond),
         Vec2::new(-beyond, h + beyond),
     ];
-    let ways = [0.0, w - 1.0, w + h - 2.0, 2.0 * w + h - 3.0];
+    let corner_positions = [0.0, w - 1.0, w + h - 2.0, 2.0 * w + h - 3.0];
     let total = 2.0 * (w + h) - 4.0;
     let straight = |p: Vec2| [p.x, p.y, 0.0];
     if lines.iter().all(|line| line.is_closed) {
@@ -261,7 +260,7 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
             let (Some(start), Some(end)) = (lines[at].crossings.first(), lines[at].crossings.last()) else { break };
             let Some(wall) = &walls[at] else { break };
             let (Some(head), Some(tail)) = (wall.vertices.first(), wall.vertices.last()) else { break };
-            // Out of the image straight on, from where the wall reaches its edge.
+            // Straight outwards from the point where the wall reaches the edge of the image.
             let (inwards, outwards) = (heading(*start), heading(*end));
             let from = at_edge(head.point, -head.tangent, -inwards, [w, h]);
             let to = at_edge(tail.point, tail.tangent, outwards, [w, h]);
@@ -269,11 +268,13 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
             ring.vertices.extend(wall.vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge]));
             ring.vertices.extend([straight(to), straight(to + outwards * beyond)]);
             let follower = next[at].unwrap_or(at);
-            let leave = way(grid, grid.middle(*end));
-            let enter = lines[follower].crossings.first().map_or(leave, |c| way(grid, grid.middle(*c)));
+            let leave = edge_position(grid, grid.middle(*end));
+            let enter = lines[follower].crossings.first().map_or(leave, |c| edge_position(grid, grid.middle(*c)));
             let span = (enter - leave).rem_euclid(total);
-            let mut passed: Vec<(f64, usize)> =
-                (0..4).map(|k| ((ways[k] - leave).rem_euclid(total), k)).filter(|(far, _)| *far < span).collect();
+            let mut passed: Vec<(f64, usize)> = (0..4)
+                .map(|k| ((corner_positions[k] - leave).rem_euclid(total), k))
+                .filter(|(far, _)| *far < span)
+                .collect();
             passed.sort_by(|a, b| a.0.total_cmp(&b.0));
             ring.vertices.extend(passed.into_iter().map(|(_, k)| straight(corners[k])));
             at = follower;
@@ -289,11 +290,11 @@ fn heading(at: Crossing) -> Vec2 {
     [Vec2::y(), -Vec2::x(), -Vec2::y(), Vec2::x()][at.heading as usize]
 }
 
-/// Where a wall that ends near the edge of the image reaches it: along its tangent, or straight out where that runs along the edge.
+/// Where a wall that ends near the edge of the image reaches it: along its tangent, or straight outwards if that is nearly parallel.
 fn at_edge(p: Vec2, tangent: Vec2, out: Vec2, [w, h]: [f64; 2]) -> Vec2 {
     let edge = if out.x + out.y > 0.0 { Vec2::new(w, h) } else { Vec2::zeros() };
     let rest = (edge - p).dot(&out);
-    // Steeper than 60 degrees to the edge's normal, the wall would run along the edge for long.
+    // Beyond 60 degrees from the edge's normal, the wall would run along the edge over a long distance.
     let along = tangent.dot(&out);
     let q = if along >= 0.5 { p + tangent * (rest / along) } else { p + out * rest };
     Vec2::new(q.x.clamp(0.0, w), q.y.clamp(0.0, h))

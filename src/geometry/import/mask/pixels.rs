@@ -1,7 +1,6 @@
-//! From the bytes of a PNG or TIFF file to the share of solid in each pixel.
+//! From the bytes of a PNG or TIFF file to the solid fraction in each pixel.
 //!
-//! Colors count by their luminance (Rec. 709), transparent pixels lie on white. Sizes are compared with limits before anything is
-//! reserved for them.
+//! Colors count by their luminance (Rec. 709), transparent pixels are blended with white. Sizes are checked against limits before memory is allocated.
 
 use std::io::Cursor;
 
@@ -14,11 +13,11 @@ use crate::geometry::import::drawing::Refusal;
 
 /// Longest side of an image in pixels.
 const LONGEST_SIDE: u32 = 32_768;
-/// Most pixels of an image: 8192 x 8192.
+/// Maximum number of pixels of an image: 8192 x 8192.
 const MOST_PIXELS: u64 = 1 << 26;
-/// Shortest side: fewer pixels hold no outline.
+/// Shortest side: fewer pixels cannot contain an outline.
 const SHORTEST_SIDE: u32 = 4;
-/// Most bytes of a decoded image: 8192 x 8192 pixels of four channels of 16 bits.
+/// Maximum number of bytes of a decoded image: 8192 x 8192 pixels of four channels of 16 bits.
 const MOST_BYTES: u64 = 8 * MOST_PIXELS;
 
 /// Gray values in rows from below, 0 black and 1 white.
@@ -29,7 +28,7 @@ pub(super) struct Gray {
     notes: Vec<String>,
 }
 
-/// The share of solid in each pixel, rows from below; one half is the threshold.
+/// The solid fraction in each pixel, rows from below; one half is the threshold.
 pub(super) struct Solid {
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -37,7 +36,7 @@ pub(super) struct Solid {
 }
 
 impl Solid {
-    /// The share of solid in the image.
+    /// The solid fraction of the image.
     pub(crate) fn mean(&self) -> f64 {
         self.share.iter().map(|&s| f64::from(s)).sum::<f64>() / self.share.len() as f64
     }
@@ -47,7 +46,7 @@ fn refusal(found: impl Into<String>, expected: impl Into<String>) -> Refusal {
     Refusal { place: "the image".into(), found: found.into(), expected: expected.into() }
 }
 
-/// Reads PNG or TIFF, told by the first bytes.
+/// Reads PNG or TIFF, as detected from the first bytes.
 pub(super) fn decode(bytes: &[u8]) -> Result<Gray, Refusal> {
     let gray = if bytes.starts_with(b"\x89PNG") {
         png(bytes)?
@@ -174,7 +173,7 @@ fn tiff(bytes: &[u8]) -> Result<Gray, Refusal> {
 /// The orientation of an image whose rows run down and columns to the right.
 const UPRIGHT: u16 = 1;
 
-/// The image as it is seen: tag 274 of TIFF tells at which sides of the picture the first row and the first column of the file lie.
+/// The image in display orientation: tag 274 of TIFF gives the sides of the picture at which the first row and the first column of the file lie.
 fn oriented((width, height): (u32, u32), values: Vec<f32>, orientation: u16) -> Result<Gray, Refusal> {
     let (w, h) = (width as usize, height as usize);
     // Column and row of the file for those of the picture.
@@ -189,26 +188,26 @@ fn oriented((width, height): (u32, u32), values: Vec<f32>, orientation: u16) -> 
         8 => |[x, y], [w, _]| [w - 1 - y, x],
         other => return Err(refusal(format!("the orientation {other}"), "1 to 8 in tag 274: export the image again")),
     };
-    let seen = if orientation < 5 { [w, h] } else { [h, w] };
+    let size = if orientation < 5 { [w, h] } else { [h, w] };
     let value = |k: usize| {
-        let [x, y] = source([k % seen[0], k / seen[0]], [w, h]);
+        let [x, y] = source([k % size[0], k / size[0]], [w, h]);
         values[y * w + x]
     };
     let turned = (0..w * h).map(value).collect();
-    let mut gray = Gray::from_rows_down((seen[0] as u32, seen[1] as u32), turned);
+    let mut gray = Gray::from_rows_down((size[0] as u32, size[1] as u32), turned);
     gray.notes.push(format!("the image is turned or mirrored as its orientation {orientation} says"));
     Ok(gray)
 }
 
 fn palette(map: &[u16], index: f32, bits: u16) -> f32 {
     let count = 1_usize << bits.min(16);
-    // Samples come scaled to 0..1.
+    // Samples are scaled to 0..1.
     let index = (index * (count - 1) as f32).round() as usize;
     let channel = |k: usize| map.get(k * count + index).map_or(0.0, |&v| f32::from(v) / 65535.0);
     luminance(channel(0), channel(1), channel(2))
 }
 
-/// The samples as numbers, integers scaled to 0..1; samples of less than 8 bits are taken out of their bytes, row by row.
+/// The samples as numbers, integers scaled to 0..1; samples of less than 8 bits are unpacked row by row.
 fn unpacked(result: DecodingResult, bits: u16, row: usize, rows: usize) -> Result<Vec<f32>, Refusal> {
     Ok(match result {
         DecodingResult::U8(bytes) if bits < 8 && bytes.len() != row * rows => {
@@ -244,7 +243,7 @@ impl Gray {
         Self { width, height: height as usize, values, notes: Vec::new() }
     }
 
-    /// Two values only (0 and 1 of a label image, say) are black and white, and floats beyond 0 to 1 are scaled to it.
+    /// Images of two values (0 and 1 of a label image, say) become black and white, and floats outside 0 to 1 are rescaled.
     fn stretched(mut self) -> Self {
         let (low, high) = self.range();
         let is_binary = low < high && self.values.iter().all(|&v| v == low || v == high);
@@ -260,7 +259,7 @@ impl Gray {
         self.values.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)))
     }
 
-    /// The share of solid in each pixel: 0 and 1 at the commonest gray values on both sides of the threshold, one half at the threshold.
+    /// The solid fraction in each pixel: 0 and 1 at the most common gray values on both sides of the threshold, one half at the threshold.
     pub(crate) fn solid(self, threshold: f64, invert: bool) -> Result<(Solid, Vec<String>), Refusal> {
         const BINS: usize = 256;
         let bin = |v: f32| ((v * (BINS - 1) as f32).round() as usize).min(BINS - 1);
@@ -276,7 +275,7 @@ impl Gray {
         };
         let mut notes = self.notes;
         let middle = 0.5 * (dark + bright);
-        // Farther from the middle, a blurred wall is seen beside its place.
+        // At thresholds farther from the middle, a blurred wall is visibly displaced.
         const FAR: f64 = 0.1;
         if (f64::from(middle) - threshold).abs() > FAR {
             notes.push(format!(

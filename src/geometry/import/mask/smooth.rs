@@ -1,12 +1,12 @@
-//! Smooth curves through noisy points: the least sum of squares of distances plus λ times that of second differences
-//! (Whittaker 1923), along a line or around a ring.
+//! Smooth curves through noisy points: minimum of the sum of squared distances plus λ times that of squared second differences (Whittaker 1923), along a line
+//! or around a ring.
 
 use crate::math::{Vec2, perpendicular};
 
-/// A weight decays by this many decay lengths beyond the seam of a ring: e^(−16/√2) = 1e-5 of the noise of a pixel.
+/// Number of decay lengths of a weight beyond the seam of a ring: e^(−16/√2) = 1e-5 of the noise of a pixel.
 const SEAM: f64 = 16.0;
 
-/// Points at even distances of about `spacing` along a polygon; first and last point of an open one are kept.
+/// Equidistant points with a distance of about `spacing` along a polygon; first and last point of an open one are kept.
 pub(super) fn resampled(points: &[Vec2], is_closed: bool, spacing: f64) -> Vec<Vec2> {
     let mut line = points.to_vec();
     if is_closed {
@@ -30,7 +30,7 @@ pub(super) fn resampled(points: &[Vec2], is_closed: bool, spacing: f64) -> Vec<V
     found
 }
 
-/// The smooth curve at the same places; `reach` is the length, in points, over which noise is averaged: λ is its fourth power.
+/// The smooth curve at the same points; `reach` is the length, in points, over which noise is averaged: λ is its fourth power.
 pub(super) fn smoothed(points: &[Vec2], is_closed: bool, reach: f64) -> Vec<Vec2> {
     let lambda = reach.powi(4);
     if !is_closed {
@@ -41,7 +41,7 @@ pub(super) fn smoothed(points: &[Vec2], is_closed: bool, reach: f64) -> Vec<Vec2
     whittaker(&around, lambda)[seam..seam + count].to_vec()
 }
 
-/// Solves (I + λ DᵀD) s = p, D the second differences, by the factors L D Lᵀ of the band.
+/// Solves (I + λ DᵀD) s = p, D the second differences, by the L D Lᵀ factorization of the band matrix.
 fn whittaker(points: &[Vec2], lambda: f64) -> Vec<Vec2> {
     let n = points.len();
     if n < 3 {
@@ -96,7 +96,7 @@ pub(super) fn tangents(points: &[Vec2], is_closed: bool) -> Vec<Vec2> {
     (0..n as isize).map(|k| (at(k + 1) - at(k - 1)).try_normalize(0.0).unwrap_or_else(Vec2::x)).collect()
 }
 
-/// The points moved by `by` to the right of the direction of travel: out of the solid.
+/// The points displaced by `by` to the right of the direction of travel: out of the solid.
 pub(super) fn moved_out(points: &[Vec2], tangents: &[Vec2], by: f64) -> Vec<Vec2> {
     points.iter().zip(tangents).map(|(p, &t)| p - perpendicular(t) * by).collect()
 }
@@ -111,7 +111,7 @@ mod tests {
         let line: Vec<Vec2> = (0..50).map(|k| Vec2::new(f64::from(k), 0.3 * f64::from(k))).collect();
         for reach in [1.0, 5.0, 30.0] {
             let smooth = smoothed(&line, false, reach);
-            // Rounding grows with the condition of the band, 16 times the fourth power of the reach.
+            // Rounding grows with the condition number of the band matrix, 16 times the fourth power of the reach.
             let error = line.iter().zip(&smooth).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
             assert!(error < 1e-15 * 16.0 * reach.powi(4) * 50.0 + 1e-12, "{error:e}");
         }

@@ -1,4 +1,4 @@
-//! One contour line as a wall of arcs that holds the area of its pixels: the smoothest line within the noise, and the contour itself at rough places.
+//! One contour line as a wall of arcs that preserves the area of its pixels: the smoothest line within the noise, and the contour itself at rough points.
 
 use super::arcs::{self, Vertex};
 use super::circle::{self, Noise};
@@ -8,39 +8,39 @@ use crate::geometry::curve::cross;
 use crate::geometry::import::drawing::Ring;
 use crate::math::Vec2;
 
-/// Grains and holes of less than this many pixels are specks: a disc of two pixels radius has 12.6.
+/// Minimum area of grains and holes in pixels; smaller ones are specks. A disc of two pixels radius has 12.6.
 pub(super) const SPECK: f64 = 12.0;
 
-/// Distance of points along a line before it is smoothed, in pixels: below that of crossings, .8 in the mean.
+/// Distance of points along a line before smoothing, in pixels: below the mean distance of crossings, .8.
 const SPACING: f64 = 0.7;
 
-/// Lengths over which noise is averaged, each √2 times the one before, in points.
+/// Number of averaging lengths that are tried, each √2 times the previous one, in points.
 const REACHES: i32 = 16;
 
-/// The farthest that the smooth parts of a line with rough places move for its area, in pixels.
+/// Maximum displacement of the smooth parts of a line with rough points to meet its area, in pixels.
 const FARTHEST: f64 = 0.25;
 
-/// What becomes of the line at a crossing.
+/// Treatment of the line at a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum At {
     /// It is smoothed.
     Smooth,
-    /// The contour is kept and moves with the line for its area.
+    /// The contour is kept and displaced with the line to meet the area.
     Kept,
-    /// The contour is kept where it is.
+    /// The contour is kept in place.
     Fixed,
 }
 
-/// A line as arcs with the area that it holds.
+/// A line as arcs with its enclosed area.
 pub(super) struct Wall {
     pub(crate) vertices: Vec<Vertex>,
-    /// Above 0 around a grain, below 0 around a hole; of closed lines only.
+    /// Positive around a grain, negative around a hole; for closed lines only.
     pub(crate) area: f64,
-    /// Center of the disc that it is.
+    /// Center of the disc, if it is one.
     pub(crate) center: Option<Vec2>,
 }
 
-/// How often the lines pass each pixel: one that several lines pass is shared among them.
+/// Number of times that lines pass each pixel: a pixel passed several times is shared among the lines.
 pub(super) fn visits(grid: &Grid<'_>, lines: &[Line]) -> Vec<u8> {
     let mut visits = vec![0_u8; grid.solid.share.len()];
     for &at in lines.iter().flat_map(|line| &line.crossings) {
@@ -57,18 +57,18 @@ fn cell(grid: &Grid<'_>, at: Crossing) -> impl Iterator<Item = usize> {
     beside.into_iter().chain(grid.ahead(at).into_iter().flatten())
 }
 
-/// ½ ∮ (x dy − y dx) of the line of points, closed by a straight edge.
+/// ½ ∮ (x dy − y dx) of the polyline, closed by a straight edge.
 fn polygon_area(points: &[Vec2]) -> f64 {
     let Some(&origin) = points.first() else { return 0.0 };
     points.windows(2).map(|w| 0.5 * cross(w[0] - origin, w[1] - origin)).sum()
 }
 
 impl Wall {
-    /// A line as its crossings are marked, all of them smooth without marks; nothing where it is a speck.
+    /// The wall of a line whose crossings are marked in `rough`, all of them smooth if that is empty; `None` for a speck.
     pub(crate) fn of(grid: &Grid<'_>, line: &Line, visits: &[u8], rough: &[At]) -> Option<Self> {
         let points: Vec<Vec2> = line.crossings.iter().map(|&at| grid.point(at)).collect();
         let middles: Vec<Vec2> = line.crossings.iter().map(|&at| grid.middle(at)).collect();
-        // Partly covered pixels beside the line, and whether there are any.
+        // Sum over partly covered pixels along the line, and whether there are any.
         let (mut partly, mut is_gray) = (0.0, false);
         for node in line.crossings.iter().flat_map(|&at| cell(grid, at)) {
             let share = grid.share(node);
@@ -79,7 +79,7 @@ impl Wall {
         let pixels = line.turns as f64 / 8.0 + partly;
         let noise = if is_gray { circle::GRAY } else { circle::BINARY };
         if !line.is_closed {
-            // Between the line and that through the middles, closed along the edges of the image.
+            // Between the line and the polygon through the midpoints, closed along the edges of the image.
             let lack = |line: &[Vec2]| {
                 pixels - polygon_area(&line.iter().chain(middles.iter().rev()).copied().collect::<Vec<_>>())
             };
@@ -126,10 +126,10 @@ fn circle_vertices(center: Vec2, area: f64) -> Vec<Vertex> {
         .to_vec()
 }
 
-/// Points at even distances with the tangents there.
+/// Equidistant points with their tangents.
 type Smooth = (Vec<Vec2>, Vec<Vec2>);
 
-/// The smoothest line within the noise, moved out so that it lacks no area; `lack` tells what a line lacks, in px².
+/// The smoothest line within the noise, displaced outwards to the right area; `lack` is the missing area of a line, in px².
 fn smooth(points: &[Vec2], is_closed: bool, noise: Noise, lack: impl Fn(&[Vec2]) -> f64) -> Smooth {
     let even = resampled(points, is_closed, SPACING);
     let length: f64 = even.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
@@ -158,12 +158,12 @@ fn smooth(points: &[Vec2], is_closed: bool, noise: Noise, lack: impl Fn(&[Vec2])
     best
 }
 
-/// The smooth line as arcs; where crossings are rough, the contour through them as straight edges.
+/// The smooth line as arcs; at rough crossings, the contour through them as straight edges.
 fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, rough: &[At], noise: Noise) -> Vec<Vertex> {
     if rough.is_empty() {
         return arcs::arcs((&smooth.0, &smooth.1), line.is_closed, noise.rms);
     }
-    // How far along the contour each crossing lies, and the end.
+    // Arc length of each crossing along the contour, and of the end.
     let mut far = vec![0.0];
     for k in 0..points.len() {
         far.push(far[k] + (points[(k + 1) % points.len()] - points[k]).norm());
@@ -174,29 +174,29 @@ fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, roug
         let next = far.partition_point(|&far| far <= s);
         [next - 1, next].into_iter().any(|k| rough[k % rough.len()] > At::Smooth)
     };
-    // Smooth points, and crossings instead of those at rough places, in order.
-    let mut places: Vec<(f64, Option<usize>, usize)> = Vec::new();
-    places.extend((0..smooth.0.len()).map(|k| (k as f64 * step, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
-    places.extend((0..rough.len()).filter(|&k| rough[k] > At::Smooth).map(|k| (far[k], None, k)));
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Smooth points, replaced by crossings at rough points, in order.
+    let mut nodes: Vec<(f64, Option<usize>, usize)> = Vec::new();
+    nodes.extend((0..smooth.0.len()).map(|k| (k as f64 * step, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
+    nodes.extend((0..rough.len()).filter(|&k| rough[k] > At::Smooth).map(|k| (far[k], None, k)));
+    nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
     if line.is_closed {
-        let first = places.iter().position(|place| place.1.is_none()).unwrap_or(0);
-        places.rotate_left(first);
+        let first = nodes.iter().position(|node| node.1.is_none()).unwrap_or(0);
+        nodes.rotate_left(first);
     }
     let mut found = Vec::new();
-    for run in places.chunk_by(|a, b| a.1.is_some() == b.1.is_some()) {
-        let smooth_run: Vec<usize> = run.iter().filter_map(|place| place.1).collect();
+    for run in nodes.chunk_by(|a, b| a.1.is_some() == b.1.is_some()) {
+        let smooth_run: Vec<usize> = run.iter().filter_map(|node| node.1).collect();
         if smooth_run.is_empty() {
             let n = rough.len();
             let apart = |k: usize| grid.apart(line.crossings[k % n]);
-            // Without a tangent a vertex stays in place; lines leave the image at right angles.
+            // A vertex without a tangent stays in node; lines leave the image at right angles.
             let along = |k: usize| match rough[k] {
                 At::Kept if line.is_closed => (apart(k + 1) - apart(k + n - 1)).try_normalize(0.0),
                 _ => None,
             };
             let corner =
                 |k: usize| Vertex { point: apart(k), bulge: 0.0, tangent: along(k).unwrap_or_else(Vec2::zeros) };
-            found.extend(run.iter().map(|place| corner(place.2)));
+            found.extend(run.iter().map(|node| corner(node.2)));
         } else {
             let pick = |from: &[Vec2]| smooth_run.iter().map(|&k| from[k]).collect::<Vec<_>>();
             found.extend(arcs::arcs((&pick(&smooth.0), &pick(&smooth.1)), false, noise.rms));
@@ -205,9 +205,9 @@ fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, roug
     found
 }
 
-/// Moves a closed chain out until it holds the area, by at most `farthest`.
+/// Displaces a closed chain outwards to the given area, by at most `farthest`.
 fn set_area(vertices: &mut [Vertex], area: f64, farthest: f64) {
-    // One step meets the area but for a circle of the step's radius; the second meets that.
+    // After one step the area error is that of a circle with the step as radius; the second step corrects it.
     for _ in 0..3 {
         let length = arcs::movable_length(vertices);
         if length > 0.0 {

@@ -1,8 +1,8 @@
-//! Lines of an SVG text, to say where an element stands.
+//! Line numbers in an SVG text, for the source locations of elements.
 
 use roxmltree::Node;
 
-/// Where the lines of a text begin.
+/// The starts of the lines of a text.
 pub(crate) struct Lines(Vec<usize>);
 
 impl Lines {

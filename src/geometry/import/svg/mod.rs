@@ -1,8 +1,8 @@
 //! SVG drawings: basic shapes and paths with their nested transforms, as filled areas in the unit of the page, y up.
 //!
-//! Source: Scalable Vector Graphics 1.1, 2nd ed., W3C 2011, chapters 5 to 11 and appendix F.6. The lower left corner of the page becomes
-//! the origin. Circles stay exact under all maps that keep circles. What is left out: text, images, filters, clips and masks (told in
-//! notes) and the width of strokes. White shapes are pore where others are not white.
+//! Source: Scalable Vector Graphics 1.1, 2nd ed., W3C 2011, chapters 5 to 11 and appendix F.6. The lower left corner of the page becomes the origin. Circles
+//! stay exact under all maps that preserve circles. Ignored: text, images, filters, clips and masks (mentioned in notes) and the width of strokes. White
+//! shapes are pore if others are not white.
 
 mod lines;
 mod page;
@@ -17,10 +17,10 @@ use roxmltree::{Document, ParsingOptions};
 use self::lines::Lines;
 use super::drawing::{Drawing, Refusal};
 
-/// Bytes of entities, as a multiple of the file, that references may unfold into.
+/// Maximum size of expanded entities over the size of the file.
 const LARGEST_ENTITIES: usize = 10;
 
-/// Reads a drawing. With `layers`, only groups of these names, or within one of them.
+/// Reads a drawing. With `layers`, only groups of these names, and groups inside them.
 pub(crate) fn read(text: &str, layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
     check_entities(text).map_err(|refusal| vec![refusal])?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
@@ -37,7 +37,7 @@ pub(crate) fn read(text: &str, layers: Option<&[String]>) -> Result<Drawing, Vec
     walk::drawing(&document, &lines, text.len(), layers)
 }
 
-/// Refuses files whose entities stand for far more text than the file holds.
+/// Refuses files whose entities expand to far more text than the file has.
 fn check_entities(text: &str) -> Result<(), Refusal> {
     if !text.contains("<!ENTITY") {
         return Ok(());
@@ -46,7 +46,7 @@ fn check_entities(text: &str) -> Result<(), Refusal> {
         return Ok(());
     };
     let refusal = |found: &str| Refusal::new("DOCTYPE", found, "entities written out: save the drawing as plain SVG");
-    // Entities within entities are not needed by any drawing program, and grow with a power of their depth.
+    // Nested entities are not needed by any drawing program, and grow exponentially with their depth.
     let is_nested = declared.split("<!ENTITY").skip(1).any(|entity| entity.contains('&') && !entity.contains("&#"));
     if is_nested {
         return Err(refusal("entities made of entities"));

@@ -1,4 +1,4 @@
-//! Lengths, viewports and the page of an SVG drawing: which unit its numbers have, and where its corners lie.
+//! Lengths, viewports and the page of an SVG drawing: its unit and the position of its corners.
 
 use std::str::FromStr;
 
@@ -14,14 +14,14 @@ const INCH: f64 = 0.0254;
 /// CSS: 96 px are an inch.
 const PIXEL: f64 = INCH / 96.0;
 
-/// What lengths refer to: the size of the nearest viewport in its user units, where it has one.
+/// Reference of relative lengths: the size of the nearest viewport in its user units, if known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Viewport {
     /// Width and height.
     pub(crate) size: Option<Vec2>,
 }
 
-/// The direction that a percentage refers to.
+/// The reference direction of a percentage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Along {
     /// The width of the viewport.
@@ -32,7 +32,7 @@ pub(crate) enum Along {
     Diagonal,
 }
 
-/// The name of a unit of length and its length in m; none for relative ones.
+/// The name of a unit of length and its length in m; `None` for relative ones.
 fn unit_of(unit: LengthUnit) -> Option<(&'static str, f64)> {
     match unit {
         LengthUnit::Mm => Some(("mm", 1e-3)),
@@ -46,7 +46,7 @@ fn unit_of(unit: LengthUnit) -> Option<(&'static str, f64)> {
 }
 
 impl Viewport {
-    /// The length of an attribute in user units; `None` where it is absent. On a mistake, what was found.
+    /// The length of an attribute in user units; `None` if it is absent. On a mistake, what was found.
     pub(crate) fn length(&self, node: Node, name: &str, along: Along) -> Result<Option<f64>, String> {
         let Some(text) = node.attribute(name).filter(|text| !text.trim().is_empty() && text.trim() != "auto") else {
             return Ok(None);
@@ -54,7 +54,7 @@ impl Viewport {
         self.value(text.trim(), along).map(Some).ok_or_else(|| format!("{name}=\"{text}\""))
     }
 
-    /// A length in user units; none where it is not known.
+    /// A length in user units; `None` if unknown.
     pub(crate) fn value(&self, text: &str, along: Along) -> Option<f64> {
         let Length { number, unit } = Length::from_str(text).ok()?;
         let value = match (unit, unit_of(unit)) {
@@ -93,7 +93,7 @@ pub(crate) fn shortened(text: &str) -> String {
     }
 }
 
-/// The view box of an element; `None` where it has none.
+/// The view box of an element; `None` if it has none.
 pub(crate) fn view_box(node: Node) -> Result<Option<ViewBox>, String> {
     let Some(text) = node.attribute("viewBox") else { return Ok(None) };
     let found = || format!("viewBox=\"{}\"", shortened(text));
@@ -106,7 +106,7 @@ pub(crate) fn view_box(node: Node) -> Result<Option<ViewBox>, String> {
     }
 }
 
-/// The map from a view box into a viewport of the given size at the origin, as `preserveAspectRatio` says.
+/// The map from a view box to a viewport of the given size at the origin, by `preserveAspectRatio`.
 pub(crate) fn fit(node: Node, view_box: ViewBox, size: Vec2) -> Result<Affine, String> {
     let ratio = match node.attribute("preserveAspectRatio") {
         Some(text) => AspectRatio::from_str(text).map_err(|_| format!("preserveAspectRatio=\"{text}\""))?,
@@ -135,12 +135,12 @@ pub(crate) fn fit(node: Node, view_box: ViewBox, size: Vec2) -> Result<Affine, S
     Ok(Affine::translation(corner).after(&Affine::scaling(x, y)).after(&to_origin))
 }
 
-/// The page: how the numbers of the outermost element become coordinates of the drawing.
+/// The page: conversion of the coordinates of the outermost element to those of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Page {
     /// From user units of the outermost element, y down, to the drawing, y up.
     pub(crate) map: Affine,
-    /// What lengths in the outermost element refer to.
+    /// Reference of lengths in the outermost element.
     pub(crate) viewport: Viewport,
     /// The unit of the drawing.
     pub(crate) unit: Option<Unit>,
@@ -160,14 +160,14 @@ impl Page {
             match (unit_of(side.unit), named) {
                 (Some((own, _)), Some((name, _))) if own == name => Some(side.number),
                 (Some((_, own)), Some((_, meters))) => Some(side.number * (own / meters)),
-                // A bare number beside a length with a unit is in px.
+                // A bare number combined with a length with a unit is in px.
                 (None, Some((_, meters))) => Some(side.number * (PIXEL / meters)),
                 (_, None) => Some(side.number),
             }
         };
         let (width, height) = (in_unit(width), in_unit(height));
         let unit = named.map(|(name, meters)| Unit { name: name.to_owned(), meters });
-        // With no view box a user unit is a px.
+        // Without a view box a user unit is a px.
         let pixel = named.map_or(1.0, |(_, meters)| PIXEL / meters);
         let (size, map) = match view_box {
             Some(view_box) => {
@@ -194,7 +194,7 @@ impl Page {
     }
 }
 
-/// Width or height of the outermost element; none where it is absent or a share of the window.
+/// Width or height of the outermost element; `None` if it is absent or a percentage of the window.
 fn side(root: Node, name: &str) -> Result<Option<Length>, String> {
     let Some(text) = root.attribute(name).filter(|text| !matches!(text.trim(), "" | "auto")) else { return Ok(None) };
     let found = || format!("{name}=\"{}\"", shortened(text));

@@ -1,6 +1,6 @@
 //! The data of SVG paths: every command, relative and absolute; arcs by center and radii (SVG 1.1, F.6.5).
 //!
-//! The arc is our own: that of kurbo 0.13 takes radii below 1e-5 for straight lines, in whatever unit.
+//! The arc is our own: that of kurbo 0.13 treats radii below 1e-5 as straight lines, in any unit.
 
 use svgtypes::{PathParser, PathSegment};
 
@@ -8,15 +8,15 @@ use crate::geometry::curve::cross;
 use crate::geometry::import::contour::{EllipticArc, Piece};
 use crate::math::{Mat2, Vec2};
 
-/// Ends as far apart as the diameter, to rounding: the center is their middle. Beyond, the square root of the rounding would move it.
+/// Tolerance for a half turn: the center is the midpoint of the ends. Otherwise the square root of the rounding would displace it.
 const HALF_TURN: f64 = 1e-13;
 
 /// A subpath.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Subpath {
-    /// Its pieces, one after the other.
+    /// Its consecutive pieces.
     pub(crate) pieces: Vec<Piece>,
-    /// Whether it ends with the command to close it, or where it begins.
+    /// Whether it ends with the close command, or at its start.
     pub(crate) is_closed: bool,
 }
 
@@ -30,20 +30,20 @@ pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, String> {
     Ok(pen.finish())
 }
 
-/// Where a path stands while it is drawn.
+/// The state of drawing a path.
 #[derive(Debug, Default)]
 struct Pen {
     done: Vec<Subpath>,
     pieces: Vec<Piece>,
     start: Vec2,
     at: Vec2,
-    /// The last control point of a cubic, and of a quadratic curve right before.
+    /// The last control point of an immediately preceding cubic, and of a quadratic curve.
     cubic: Option<Vec2>,
     quadratic: Option<Vec2>,
 }
 
 impl Pen {
-    /// Draws one command; none if a number is out of range.
+    /// Executes one command; `None` if a number is out of range.
     fn draw(&mut self, segment: PathSegment) -> Option<()> {
         let at = self.at;
         let point = |is_absolute: bool, x: f64, y: f64| Vec2::new(x, y) + if is_absolute { Vec2::zeros() } else { at };
@@ -122,7 +122,7 @@ impl Pen {
     }
 }
 
-/// The elliptic arc between two points; none where a radius is 0, which is a straight line.
+/// The elliptic arc between two points; `None` if a radius is 0, which gives a straight line.
 fn arc(ends: [Vec2; 2], radii: [f64; 2], rotation_deg: f64, [is_large, is_positive]: [bool; 2]) -> Option<EllipticArc> {
     let [a, b] = ends;
     let [rx, ry] = radii.map(f64::abs);
@@ -131,15 +131,15 @@ fn arc(ends: [Vec2; 2], radii: [f64; 2], rotation_deg: f64, [is_large, is_positi
     }
     let (sin, cos) = rotation_deg.to_radians().sin_cos();
     let (axis_x, axis_y) = (Vec2::new(cos, sin), Vec2::new(-sin, cos));
-    // In units of the radii the arc is one of a unit circle.
+    // In units of the radii the arc lies on a unit circle.
     let to_unit = |v: Vec2| Vec2::new(axis_x.dot(&v) / rx, axis_y.dot(&v) / ry);
     let half = to_unit(b - a) * 0.5;
     let stretch = half.norm_squared();
-    // Radii too small for the distance of the ends grow until they reach.
+    // Radii too small for the distance of the ends are enlarged as needed.
     let (grown, height) =
         if stretch > 1.0 - HALF_TURN { (stretch.sqrt(), 0.0) } else { (1.0, ((1.0 - stretch) / stretch).sqrt()) };
     let side = if is_large == is_positive { -1.0 } else { 1.0 };
-    // The unit center, seen from the middle of the ends.
+    // The unit center, relative to the midpoint of the ends.
     let center = Vec2::new(-half.y, half.x) * (side * height) / grown;
     let half = half / grown;
     let (from, to) = (-half - center, half - center);

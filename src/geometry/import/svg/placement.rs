@@ -1,8 +1,7 @@
-//! Where an SVG element stands: its transform, from the attribute or from CSS, about its origin.
+//! The transform of an SVG element, from the attribute or from CSS, about its origin.
 //!
-//! Source: CSS Transforms Module Level 1, W3C 2019. Elements of SVG turn about the origin of their coordinates unless `transform-origin`
-//! says otherwise; shares are those of the nearest viewport. Refused are maps in space, the properties of level 2 and boxes
-//! around what is filled or stroked.
+//! Source: CSS Transforms Module Level 1, W3C 2019. SVG elements are transformed about the origin of their coordinates unless `transform-origin` says
+//! otherwise; percentages are those of the nearest viewport. Not supported are transforms in space, the properties of level 2 and fill or stroke boxes.
 
 use std::str::FromStr;
 
@@ -15,7 +14,7 @@ use super::style::{REFUSED, Source, StyleSheet};
 use crate::geometry::import::affine::Affine;
 use crate::math::Vec2;
 
-/// So many of them move any element; the others are those of shapes.
+/// The first ones move any element; the others apply to shapes only.
 const OF_ALL: usize = 4;
 
 /// What was found and what was expected instead.
@@ -25,7 +24,7 @@ const MAPS: &str =
     "matrix, translate, scale, rotate, skewX or skewY in the plane, with lengths in px or another absolute unit";
 const BOX: &str = "`transform-box: view-box`, or a transform about a point written in numbers";
 
-/// The map from the coordinates of an element to those around it.
+/// The map from the coordinates of an element to those of its parent.
 pub(crate) fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<Affine, Mistake> {
     let (mut transform, mut origin, mut own_box) = (None, None, None);
     let mut refused = None;
@@ -35,8 +34,8 @@ pub(crate) fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<
         "transform-origin" => origin = Some(value.to_owned()),
         "transform-box" => own_box = Some(value.to_owned()),
         _ if source == Source::Css && !matches!(value, "none" | "auto") => {
-            let place = REFUSED.iter().position(|refused| *refused == name);
-            if place.is_some_and(|place| is_shape || place < OF_ALL) {
+            let index = REFUSED.iter().position(|refused| *refused == name);
+            if index.is_some_and(|index| is_shape || index < OF_ALL) {
                 refused = Some(format!("`{name}: {}` in its style", shortened(value)));
             }
         }
@@ -64,7 +63,7 @@ pub(crate) fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<
     Ok(Affine::translation(origin).after(&own).after(&Affine::translation(-origin)))
 }
 
-/// The maps of a CSS `transform`, the last one first; none where one is not understood.
+/// The maps of a CSS `transform`, the last one first; `None` if one is not understood.
 fn css(text: &str, viewport: Viewport) -> Option<Affine> {
     let mut all = Affine::identity();
     let mut rest = text.trim();
@@ -118,7 +117,7 @@ fn function(name: &str, arguments: &[&str], viewport: Viewport) -> Option<Affine
     })
 }
 
-/// An angle in degrees.
+/// A number or a percentage.
 fn angle(text: &str) -> Option<f64> {
     let Angle { number, unit } = Angle::from_str(text).ok()?;
     let degrees = match unit {
@@ -240,8 +239,8 @@ mod tests {
             ("r: 7px", "`r: 7px` in its style"),
         ] {
             let refusals = read(&format!("<circle r='2' style='{style}'/>")).unwrap_err();
-            let told = refusals[0].to_string();
-            assert!(told.starts_with("line 2: found ") && told.contains(found), "{told}");
+            let message = refusals[0].to_string();
+            assert!(message.starts_with("line 2: found ") && message.contains(found), "{message}");
         }
     }
 }

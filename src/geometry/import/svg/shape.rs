@@ -1,4 +1,4 @@
-//! The shapes of SVG: what pieces a `rect`, `circle`, `ellipse`, `polygon`, `polyline`, `line` or `path` consists of.
+//! The shapes of SVG: the pieces of a `rect`, `circle`, `ellipse`, `polygon`, `polyline`, `line` or `path`.
 
 use roxmltree::Node;
 use svgtypes::PointsParser;
@@ -11,7 +11,7 @@ use crate::math::Vec2;
 /// The elements that are shapes.
 pub(crate) const SHAPES: [&str; 7] = ["rect", "circle", "ellipse", "polygon", "polyline", "line", "path"];
 
-/// The contours of a shape in its own coordinates, none where it is not drawn. On a mistake, what was found.
+/// The contours of a shape in its own coordinates, empty if it is not drawn. On a mistake, what was found.
 pub(crate) fn contours(node: Node, viewport: Viewport) -> Result<Vec<Subpath>, String> {
     let length = |name: &str, along| Ok::<_, String>(viewport.length(node, name, along)?.unwrap_or(0.0));
     let size = |name: &str, along| match viewport.length(node, name, along)? {
@@ -30,7 +30,7 @@ pub(crate) fn contours(node: Node, viewport: Viewport) -> Result<Vec<Subpath>, S
             ellipse(radius, radius)
         }
         "ellipse" => {
-            // SVG 2: one radius serves for both.
+            // SVG 2: a single radius applies to both.
             let (rx, ry) = (size("rx", Along::X)?, size("ry", Along::Y)?);
             ellipse(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0))
         }
@@ -67,7 +67,7 @@ fn closed(pieces: Vec<Piece>) -> Vec<Subpath> {
 fn points(node: Node, is_polygon: bool) -> Result<Vec<Subpath>, String> {
     let text = node.attribute("points").unwrap_or_default();
     let points: Vec<Vec2> = PointsParser::from(text).map(|(x, y)| Vec2::new(x, y)).collect();
-    // The parser stops at what it cannot read and drops half a point.
+    // The parser stops at the first error and drops half a point.
     let numbers = text.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty()).count();
     if points.len() * 2 < numbers {
         return Err(format!("points=\"...\" with {} points and something else behind", points.len()));

@@ -1,12 +1,12 @@
-//! What of the style of an SVG element decides whether it is a shape, and where: `display`, `visibility`, fill, stroke, fill rule
-//! and transform, from attributes, `style` and style sheets.
+//! The style properties that determine whether an SVG element is a shape, and where: `display`, `visibility`, fill, stroke, fill rule and transform, from
+//! attributes, `style` and style sheets.
 //!
-//! Selectors may name an element, an id and classes (`circle.grain`, `#a`, `*`); those with combinators or conditions are counted and
-//! left out. Media rules are left out.
+//! Selectors may name an element, an id and classes (`circle.grain`, `#a`, `*`); those with combinators or conditions are counted and ignored. Media rules
+//! are ignored.
 
 use std::collections::BTreeMap;
 
-/// Properties that would move or reshape an element where a style sheet sets them.
+/// Properties in a style sheet that would move or reshape an element.
 pub(crate) const REFUSED: [&str; 14] =
     ["translate", "rotate", "scale", "offset-path", "cx", "cy", "r", "rx", "ry", "x", "y", "width", "height", "d"];
 
@@ -15,7 +15,7 @@ use svgtypes::{Color, Paint};
 
 use crate::geometry::import::drawing::FillRule;
 
-/// The properties that matter here, as attributes too.
+/// The relevant properties, also as attributes.
 const PROPERTIES: [&str; 14] = [
     "display",
     "visibility",
@@ -33,7 +33,7 @@ const PROPERTIES: [&str; 14] = [
     "transform-box",
 ];
 
-/// Where a property stands: numbers of attributes need no unit.
+/// Source of a property: numbers of attributes need no unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Source {
     /// An attribute of the element.
@@ -42,10 +42,10 @@ pub(crate) enum Source {
     Css,
 }
 
-/// Rules for one class, id or kind of element; each is tried at each of its elements.
+/// Maximum number of rules for one class, id or kind of element; each is tested for each of its elements.
 pub(crate) const MOST_RULES: usize = 200;
 
-/// With what a shape is filled.
+/// Fill of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fill {
     /// Nothing.
@@ -56,16 +56,16 @@ pub(crate) enum Fill {
     Other,
 }
 
-/// The style of an element, what it inherits included.
+/// The style of an element, including inherited properties.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Style {
-    /// `display="none"` or no opacity: nor are its children drawn.
+    /// `display="none"` or zero opacity: its children are not drawn either.
     pub(crate) is_removed: bool,
-    /// Whether `visibility` lets it be seen.
+    /// Whether it is visible by `visibility`.
     pub(crate) is_visible: bool,
-    /// With what it is filled.
+    /// Its fill.
     pub(crate) fill: Fill,
-    /// By which rule.
+    /// Its fill rule.
     pub(crate) rule: FillRule,
     /// Whether its outline is drawn.
     pub(crate) has_stroke: bool,
@@ -93,7 +93,7 @@ impl Default for Style {
 }
 
 impl Style {
-    /// The style of an element within one of this style.
+    /// The style of an element whose parent has this style.
     pub(crate) fn of_child(&self, node: Node, sheet: &StyleSheet) -> Self {
         let mut style = Self { is_removed: false, is_clipped: false, ..*self };
         sheet.for_each(node, |_, name, value| style.set(name, value, self));
@@ -122,7 +122,7 @@ impl Style {
     }
 }
 
-/// The number at the beginning of a value: any unit may follow, as only zero matters.
+/// The number at the start of a value; the unit is irrelevant, as only zero matters.
 fn number(value: &str) -> Option<f64> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))).unwrap_or(value.len());
     value[..end].parse().ok()
@@ -144,7 +144,7 @@ pub(crate) struct StyleSheet {
     rules: BTreeMap<String, Vec<Rule>>,
     /// Number of rules.
     number: usize,
-    /// Selectors that are not understood.
+    /// Number of selectors that are not understood.
     pub(crate) left_out: usize,
 }
 
@@ -175,7 +175,7 @@ impl StyleSheet {
         sheet
     }
 
-    /// A selector that has more rules than are tried.
+    /// A selector with more rules than are tested.
     pub(crate) fn overfull(&self) -> Option<&str> {
         self.rules.iter().find(|(_, rules)| rules.len() > MOST_RULES).map(|(key, _)| key.as_str())
     }
@@ -209,7 +209,7 @@ impl StyleSheet {
         }
     }
 
-    /// Gives each property of an element to `set`, the strongest last.
+    /// Passes each property of an element to `set`, the strongest last.
     pub(crate) fn for_each(&self, node: Node, mut set: impl FnMut(Source, &str, &str)) {
         for name in PROPERTIES {
             if let Some(value) = node.attribute(name) {
@@ -270,7 +270,7 @@ impl Selector {
         10_000 * usize::from(self.id.is_some()) + 100 * classes + usize::from(self.element.is_some())
     }
 
-    /// One word without which it matches nothing.
+    /// A simple selector that is necessary for a match.
     fn key(&self) -> String {
         match (&self.id, self.classes.first(), &self.element) {
             (Some(id), ..) => format!("#{id}"),
@@ -288,7 +288,7 @@ impl Selector {
     }
 }
 
-/// `name: value` pairs that matter here.
+/// The relevant `name: value` pairs.
 fn pairs(text: &str) -> impl Iterator<Item = (&str, &str)> {
     text.split(';').filter_map(|declaration| {
         let (name, value) = declaration.split_once(':')?;
@@ -312,7 +312,7 @@ fn without_comments(text: &str) -> String {
     kept + rest
 }
 
-/// What follows the closing brace of a block that has begun.
+/// The text after the closing brace of the current block.
 fn after_block(text: &str) -> &str {
     let mut depth = 1;
     for (at, c) in text.char_indices() {

@@ -37,7 +37,7 @@ fn a_circle_in_any_notation_is_the_same_disc() {
         "<path d='M 5,20 A 5 5 0 1 0 15,20 5 5 0 1 0 5 20'/>",
         // A quarter and three quarters.
         "<path d='M15 20A5 5 0 0 1 10 25A5 5 0 1 1 15 20z'/>",
-        // Radii too small for the distance grow.
+        // Radii too small for the distance are enlarged.
         "<path d='M5 20a1 1 0 0 1 10 0a1 1 0 0 1 -10 0z'/>",
         "<g transform='translate(10 20)'><g transform='rotate(33)'><circle r='2.5' transform='scale(-2,2)'/></g></g>",
         "<g transform='scale(5)'><circle cx='2' cy='4' r='1'/></g>",
@@ -52,7 +52,7 @@ fn a_circle_in_any_notation_is_the_same_disc() {
 
 #[test]
 fn small_and_large_numbers_keep_their_arcs() {
-    // kurbo 0.13 and others take radii below 1e-5 for lines.
+    // kurbo 0.13 and others treat radii below 1e-5 as lines.
     for scale in [1e-9, 1.0, 1e9] {
         let [a, b] = [scale, 2.0 * scale];
         let drawing = drawn(&format!("<path d='M0 0a{a} {a} 0 0 1 {b} 0a{a} {a} 0 0 1 -{b} 0z'/>"));
@@ -73,7 +73,7 @@ fn areas_of_all_commands_are_those_of_closed_formulas() {
         // x = 3t² - 2t³ over 4, y = 6 t (1-t): area 3/5 of 4 times 3... by Green's theorem 14.4/2.
         ("M0 0C0 2 4 2 4 0z", 4.8, 1e-4),
         ("M0 0c0 2 4 2 4 0s4-2 4 0S12 2 12 0z", 4.8, 1e-4),
-        // Half an ellipse, turned; a quarter with a large rest.
+        // Half an ellipse, rotated; a quarter with a large remainder.
         ("M-2 0A2 1 0 0 1 2 0z", PI, 1e-4),
         ("M0-2A2 1 90 0 1 0 2z", PI, 1e-4),
         ("M2 0A2 1 0 1 0 0 1L0 0z", 1.5 * PI, 1e-4),
@@ -96,7 +96,7 @@ fn transforms_change_areas_by_their_determinant_and_move_centers() {
     assert!((area(&outline) - 24.0).abs() < 1e-12);
     let Outline::Area { rings, .. } = outline else { panic!() };
     let center = rings[0].vertices.iter().map(|v| Vec2::new(v[0], v[1])).sum::<Vec2>() / 4.0;
-    // By hand from the inside out: (1.5, 1.5) here is (2, 2) before the skew.
+    // Manually from the inside out: (1.5, 1.5) here is (2, 2) before the skew.
     let inner = Vec2::new(2.0 + 20f64.to_radians().tan() * 2.0, 2.0).component_mul(&Vec2::new(2.0, 3.0));
     let turned = nalgebra::Rotation2::new(27f64.to_radians()) * (inner - Vec2::new(1.0, 2.0)) + Vec2::new(4.0, 6.0);
     assert!((center - Vec2::new(turned.x, 50.0 - turned.y)).norm() < 1e-12, "{center}");
@@ -144,7 +144,7 @@ fn the_page_gives_unit_scale_and_frame() {
         ("width='50mm' height='25mm' viewBox='0 0 100 50'", Some("mm"), 2.5, [5.0, 20.0], Some([50.0, 25.0])),
         ("width='50mm' viewBox='0 0 100 50'", Some("mm"), 2.5, [5.0, 20.0], Some([50.0, 25.0])),
         ("width='5cm' height='25mm' viewBox='0 0 100 50'", Some("cm"), 0.25, [0.5, 2.0], Some([5.0, 2.5])),
-        // Inkscape of old: no view box, user units are px.
+        // Old Inkscape: no view box, user units are px.
         (
             "width='96mm' height='48mm'",
             Some("mm"),
@@ -346,7 +346,7 @@ fn five_thousand_circles_take_milliseconds() {
     let text = page("viewBox='0 0 70 72' width='70mm'", &circles);
     let begin = std::time::Instant::now();
     assert_eq!(read(&text, None).unwrap().entities.len(), 5000);
-    // Aim .05 s; wide, for a debug build on a busy machine.
+    // Expected .05 s; a wide margin, for a debug build on a busy machine.
     let taken = begin.elapsed().as_secs_f64();
     assert!(taken < 2.0, "{taken} s");
 }

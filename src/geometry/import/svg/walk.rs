@@ -1,4 +1,4 @@
-//! From the tree of SVG elements to filled areas: groups, copies (`use`), nested pages, what is visible and on which layer.
+//! From the tree of SVG elements to filled areas: groups, copies (`use`), nested pages, visibility and layers.
 
 mod area;
 
@@ -16,14 +16,14 @@ use crate::geometry::import::drawing::{Drawing, Nesting, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
 use crate::math::Vec2;
 
-/// Elements within elements, copies included; drawing programs stay below twenty.
+/// Maximum nesting depth of elements, including copies; drawing programs stay below twenty.
 const DEEPEST: usize = 200;
-/// Messages after which the rest of a file is not looked at.
+/// Number of messages after which reading stops.
 const MOST_REFUSALS: usize = 20;
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 const SVG: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
-/// Elements whose content is drawn only where another element names it.
+/// Elements whose content is drawn only by reference from another element.
 const NOT_DRAWN: [&str; 14] = [
     "defs",
     "clipPath",
@@ -99,7 +99,7 @@ pub(crate) fn drawing(
     walk.finish()
 }
 
-/// What an element inherits from those around it.
+/// Properties that an element inherits from its parents.
 #[derive(Clone)]
 struct Place<'a> {
     map: Affine,
@@ -110,7 +110,7 @@ struct Place<'a> {
     depth: usize,
 }
 
-/// What is told in notes.
+/// Counts for the notes.
 #[derive(Default)]
 struct Tally {
     strokes: usize,
@@ -125,12 +125,12 @@ struct Walk<'a, 'input> {
     layers: Option<&'a [String]>,
     found_layers: Vec<bool>,
     budget: Budget,
-    /// The elements that are being copied, against copies of themselves.
+    /// The elements being copied, to detect recursive copies.
     copying: Vec<Node<'a, 'input>>,
     drawing: Drawing,
     tally: Tally,
     refusals: Vec<Refusal>,
-    /// Whether the rest of the file is no longer looked at.
+    /// Whether reading has stopped.
     is_over: bool,
 }
 
@@ -197,7 +197,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         }
     }
 
-    /// The map of an element; none, and told, where it is not understood.
+    /// The map of an element; `None`, with a message, if it is not understood.
     fn map(&mut self, node: Node, viewport: Viewport) -> Option<Affine> {
         placement::map(node, self.sheet, viewport).map_err(|(found, expected)| self.refuse(node, found, expected)).ok()
     }
@@ -208,7 +208,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         self.is_over = true;
     }
 
-    /// The name of a group: the label of Inkscape or the id.
+    /// The names of a group: the Inkscape label and the id.
     fn names(node: Node<'a, 'input>) -> [Option<&'a str>; 2] {
         [node.attribute((INKSCAPE, "label")), node.attribute("id")]
     }
@@ -238,7 +238,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         }
     }
 
-    /// Places the viewport of `node`; width and height may be those of the `use` that copies it.
+    /// Sets up the viewport of `node`; width and height may be those of the `use` that copies it.
     fn viewport(&mut self, node: Node<'a, 'input>, sized: Node<'a, 'input>, place: &mut Place) -> Option<()> {
         let side = |name: &str, along| match place.viewport.length(sized, name, along)? {
             Some(length) => Ok(Some(length)),
@@ -327,14 +327,14 @@ impl<'a, 'input> Walk<'a, 'input> {
             drawing.entities.iter_mut().for_each(|one| one.paint = Paint::Filled);
         }
         let Tally { strokes, clipped, not_closed } = self.tally;
-        let told = [
+        let counts = [
             (outlines, "closed outlines without fill are taken for shapes"),
             (not_closed, "open outlines with a fill are closed by a straight line, as they are drawn"),
             (strokes, "shapes have a stroke beside the fill; its width is not part of them"),
             (clipped, "elements have a clip or a mask, which is not applied"),
             (self.sheet.left_out, "selectors of style sheets are not understood and left out"),
         ];
-        for (number, sentence) in told.into_iter().filter(|(number, _)| *number > 0) {
+        for (number, sentence) in counts.into_iter().filter(|(number, _)| *number > 0) {
             drawing.notes.push(format!("{number} {sentence}."));
         }
         if drawing.unit.as_ref().is_some_and(|unit| unit.name == "px") {

@@ -70,11 +70,11 @@ fn random_discs_burst_where_a_root_search_says() {
         }
         worst = worst.max(relative(k * low, 1.0));
     }
-    // Rounding of the discriminant, worst in the narrowest gaps.
+    // Rounding of the discriminant, largest in the narrowest gaps.
     assert!(worst < 2e-13, "{worst}");
 }
 
-/// A polygon with corners on a circle, in place of [`Wall::of_disc`], turned by a share of its edges; at 0 a corner ends the chord.
+/// A polygon with corners on a circle instead of [`Wall::of_disc`], rotated by a fraction of its edges; at 0 a corner ends the chord.
 fn polygon(center: Vec2, radius: f64, corners: usize, turned: f64, angle: f64, hand: Hand) -> Wall {
     let sign = if hand == Hand::Left { 1.0 } else { -1.0 };
     let corner = |i: usize| {
@@ -87,7 +87,7 @@ fn polygon(center: Vec2, radius: f64, corners: usize, turned: f64, angle: f64, h
 
 #[test]
 fn corners_of_polygons_pin_menisci_by_the_shares_of_the_method_note() {
-    // 64-gons of radius 1, edges facing each other, in place of discs with a gap of 0.5.
+    // 64-gons of radius 1, edges facing each other, instead of discs with a gap of 0.5.
     for (degrees, share) in [(20.0, 1.3), (40.0, 2.9), (60.0, 4.6), (90.0_f64, 6.5)] {
         let theta = degrees.to_radians();
         let (l, r) = (Vec2::zeros(), Vec2::new(2.5, 0.0));
@@ -118,7 +118,7 @@ fn square_posts_are_left_at_their_edges() {
             2.0 * degrees.min(180.0 - degrees).max(if degrees <= 90.0 { 90.0 } else { 0.0 }).to_radians().sin() / w;
         assert!(relative(burst.curvature, leaving) < 1e-12, "{degrees}: {burst:?}");
         assert!((burst.left.point.y - 3.0).abs() < 1e-12);
-        // Just below the pressure of the slit it is held at the near edges, or before; just above it stands at the far ones.
+        // Just below the pressure of the slit it is pinned at the near edges, or before; just above it is at the far ones.
         let slit = 2.0 * theta.cos() / w;
         assert!(passage.at(slit - 1e-6).unwrap().left.point.y < 1e-9, "{degrees}");
         assert!((passage.at(slit + 1e-6).unwrap().left.point.y - 3.0).abs() < 1e-9, "{degrees}");
@@ -156,11 +156,11 @@ fn menisci_leave_smooth_walls_under_their_angles() {
         let meniscus = passage.at(k).unwrap();
         let curve = meniscus.curve();
         let (l, r) = (Vec2::zeros(), Vec2::new(distance, 0.0));
-        // Between the interface, seen from the contact, and the wall ahead.
+        // Angle between the interface and the wall ahead, at the contact.
         let ahead = |x: Vec2, center: Vec2, sign: f64| sign * perpendicular((x - center).normalize());
         let left = ahead(meniscus.left.point, l, 1.0).dot(&curve.tangent(0.0)).acos();
         let right = ahead(meniscus.right.point, r, -1.0).dot(&-curve.tangent(1.0)).acos();
-        // An arc cosine near 0 and π has half the digits only.
+        // An arc cosine near 0 and π has only half the digits.
         assert!(
             (left - angles[0]).abs() < 1e-6 && (right - angles[1]).abs() < 1e-6,
             "{case}: {left} {right} {angles:?}"

@@ -1,4 +1,4 @@
-//! Where menisci touch a third wall, and where two of them meet.
+//! Contact of menisci with a third wall, and coalescence of two menisci.
 
 use std::f64::consts::PI;
 
@@ -23,9 +23,9 @@ fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
             .find(|&k| passage.at(k).unwrap().points(50).iter().any(|&x| cell.is_inside(2, x)));
         let step = (high - low) / f64::from(n);
         match (found, scan) {
-            (Some(k), Some(seen)) => {
+            (Some(k), Some(scanned)) => {
                 counts[0] += 1;
-                assert!(k <= seen + 1e-9 && k > seen - 2.0 * step, "{case}: {k} {seen} {step}");
+                assert!(k <= scanned + 1e-9 && k > scanned - 2.0 * step, "{case}: {k} {scanned} {step}");
             }
             (None, None) => counts[1] += 1,
             _ => panic!("{case}: {found:?}, seen {scan:?}"),
@@ -67,12 +67,12 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
     let mut counts = [0; 2];
     for case in 0..300 {
         let cell = Cell::random(&mut random);
-        // The shared wall is body 1: on the right of the first, on the left of the second.
+        // The common wall is body 1: on the right of the first, on the left of the second.
         let (b, a) = (cell.passage(1, 0), cell.passage(2, 1));
         let (Some(one), Some(other)) = (a.burst(), b.burst()) else { panic!("no path in case {case}") };
         let up_to = one.curvature.min(other.curvature);
         let low = a.lowest().unwrap().curvature.max(b.lowest().unwrap().curvature);
-        // Length of the shared wall between both chords.
+        // Length of the common wall between both chords.
         let (from, to) =
             (a.left().parts[a.left().behind].curve.point(0.0), b.right().parts[b.right().behind].curve.point(1.0));
         let shared = length_between(&cell.surface(1), from, to);
@@ -85,9 +85,9 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
         });
         let step = (up_to - low) / f64::from(n);
         match (found, scan) {
-            (Some(k), Some(seen)) => {
+            (Some(k), Some(scanned)) => {
                 counts[0] += 1;
-                assert!(k <= seen + 1e-9 && k > seen - 2.0 * step, "{case}: {k} {seen} {step}");
+                assert!(k <= scanned + 1e-9 && k > scanned - 2.0 * step, "{case}: {k} {scanned} {step}");
             }
             (None, None) => counts[1] += 1,
             _ => panic!("{case}: {found:?}, seen {scan:?}"),
@@ -154,8 +154,8 @@ fn wetting_menisci_of_one_cell_meet_in_the_middle_of_the_shared_disc() {
     for l in [2.1, 2.3, 2.6_f64] {
         let (below, beside, next) = triangle(l, PI);
         let k = overlap(&below, &beside, PI / 3.0, 10.0).unwrap();
-        // Under 180 degrees a meniscus touches its discs. Contacts 30 degrees from both chords belong to the circle about the middle of
-        // the cell that touches all three discs: the last of the defending phase.
+        // At 180 degrees a meniscus is tangent to its discs. Contacts 30 degrees from both chords belong to the circle about the middle of the cell that
+        // touches all three discs: the last of the defending phase.
         let exact = 1.0 / (1.0 - l / 3_f64.sqrt());
         assert!(relative(k, exact) < 1e-9, "{l}: {k} {exact}");
         assert!(k < below.touch(&[next], 10.0).unwrap());

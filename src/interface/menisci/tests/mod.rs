@@ -1,4 +1,4 @@
-//! Menisci against closed forms, root searches and dense scans; here what these tests share.
+//! Menisci compared with closed forms, root searches and dense scans; here the helpers shared by these tests.
 
 mod burst;
 mod events;
@@ -10,7 +10,7 @@ use super::{Hand, Passage, Wall, WallPart};
 use crate::geometry::curve::{Curve, cross, unit};
 use crate::math::Vec2;
 
-/// Two discs, the right one to the right of the left one; the advance is upwards.
+/// Two discs, the second one to the right of the first; the advance is upwards.
 fn discs(radii: [f64; 2], distance: f64, angles: [f64; 2]) -> Passage {
     let (l, r) = (Vec2::zeros(), Vec2::new(distance, 0.0));
     Passage::new(
@@ -32,7 +32,7 @@ fn polyline(points: &[[f64; 2]], behind: usize, angle: f64, hand: Hand) -> Wall 
     Wall { parts: points.windows(2).map(part).collect(), behind }
 }
 
-/// The same passage seen in a mirror.
+/// The mirror image of the passage.
 fn mirrored(left: &Wall, right: &Wall) -> Passage {
     let flip = |p: Vec2| Vec2::new(-p.x, p.y);
     let mirror = |wall: &Wall| {
@@ -50,7 +50,7 @@ fn mirrored(left: &Wall, right: &Wall) -> Passage {
     Passage::new(mirror(right), mirror(left))
 }
 
-/// A small generator of numbers that are the same everywhere (Knuth's multiplier).
+/// A small portable generator of pseudorandom numbers (Knuth's multiplier).
 struct Random(u64);
 
 impl Random {
@@ -91,7 +91,7 @@ impl Cell {
         let Some(corners) = self.corners[body] else {
             return Wall::of_disc(center, radius, self.theta, self.centers[other], hand);
         };
-        // Corners stand at polar angles that do not depend on the passage; the chord ends on the line of centers.
+        // Corners lie at polar angles independent of the passage; the chord ends on the line of centers.
         let toward = self.centers[other] - center;
         let polar = toward.y.atan2(toward.x);
         let step = TAU / corners as f64;

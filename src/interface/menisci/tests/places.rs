@@ -1,4 +1,4 @@
-//! Where menisci stand between walls of several parts, and what they have swept.
+//! Positions of menisci between walls of several parts, and the areas they have swept.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -22,7 +22,7 @@ fn a_slit_holds_a_meniscus_where_its_angle_falls_and_passes_it_where_the_angle_r
     let [weak, strong] = [80.0_f64, 40.0].map(f64::to_radians);
     let passage = patched(weak, strong);
     assert!(relative(passage.burst().unwrap().curvature, 2.0 * strong.cos()) < 1e-12);
-    // In between it stands at the patch, under an angle in between.
+    // In between it is pinned at the patch boundary, at an intermediate angle.
     let meniscus = passage.at(1.0).unwrap();
     assert!((meniscus.left.point - Vec2::new(0.0, 1.0)).norm() < 1e-12);
     assert!((meniscus.bend - PI / 6.0).abs() < 1e-12, "{meniscus:?}");
@@ -36,7 +36,7 @@ fn a_step_in_a_channel_is_climbed_over_its_corner() {
         let left = polyline(&[[0.0, -3.0], [0.0, 1.0], [0.3, 1.0], [0.3, 2.0], [0.3, 4.0]], 3, theta, Hand::Left);
         let right = polyline(&[[1.0, -3.0], [1.0, 2.0], [1.0, 4.0]], 1, theta, Hand::Right);
         let passage = Passage::new(left, right);
-        // The narrow part of width 0.7 costs most; before it the wide one is filled.
+        // The narrow part of width 0.7 has the largest entry pressure; the wide one before it is filled.
         assert!(relative(passage.burst().unwrap().curvature, 2.0 * theta.cos() / 0.7) < 1e-12, "{degrees}");
         let wide = 2.0 * theta.cos();
         assert!(passage.at(wide - 1e-6).is_none_or(|meniscus| meniscus.right.point.y < 1.0));
@@ -56,11 +56,11 @@ fn a_wedge_is_filled_to_where_its_width_belongs_to_the_pressure() {
     let passage = Passage::new(left, right);
     for k in [3.0, 10.0, 50.0] {
         let meniscus = passage.at(k).unwrap();
-        // The interface makes the angle 90° − θ − half angle less than flat with the chord.
+        // The angle between interface and chord is 90° − θ − half angle.
         let exact = 2.0 * (theta + half).cos() / meniscus.chord();
         assert!(relative(k, exact) < 1e-9, "{k}: {exact}");
     }
-    // k grows without bound into the corner: the walls end it.
+    // k grows without bound towards the corner, where the walls end.
     assert_eq!(passage.burst().unwrap().left.u, 1.0);
 }
 
@@ -73,17 +73,17 @@ fn the_swept_area_is_that_of_a_polygon_of_many_corners() {
         let (low, high) = (passage.lowest().unwrap(), passage.burst().unwrap());
         let k = random.between(low.curvature, high.curvature);
         let (first, second) = (passage.at(k).unwrap(), high);
-        // Between two menisci: one front, the right wall, the other front backwards, the left wall backwards.
+        // Boundary between two menisci: one arc, the right wall, the other arc backwards, the left wall backwards.
         let area = passage.swept_area(&second) - passage.swept_area(&first);
         let corners = between(&passage, &first, &second);
         let next = corners.iter().cycle().skip(1);
         let shoelace: f64 = corners.iter().zip(next).map(|(a, b)| 0.5 * (a.x * b.y - a.y * b.x)).sum();
-        // Arcs of 2000 corners each.
+        // Arcs of 2000 vertices each.
         assert!((area - shoelace).abs() < 1e-5 * (1.0 + area.abs()), "{case}: {area} {shoelace}");
     }
 }
 
-/// Corners around the area between two menisci of a passage.
+/// Vertices around the area between two menisci of a passage.
 fn between(passage: &Passage, first: &Meniscus, second: &Meniscus) -> Vec<Vec2> {
     let along = |wall: &Wall, from: f64, to: f64, hand: Hand| {
         let behind: f64 = wall.parts[..wall.behind].iter().map(|part| part.curve.length()).sum();
@@ -116,7 +116,7 @@ fn walls_without_parts_hold_nothing() {
     assert!(Passage::new(left, Wall::default()).burst().is_none());
 }
 
-/// A level line above both walls, the pore below it.
+/// A horizontal line above both walls, the pore below it.
 fn line(y: f64) -> Curve {
     Curve::Segment { a: Vec2::new(-9.0, y), b: Vec2::new(9.0, y) }
 }
@@ -131,7 +131,7 @@ fn beyond_its_burst_a_meniscus_goes_along_the_walls_until_it_touches_a_line() {
         let meniscus = passage.reach(&line(y)).unwrap();
         let (center, r) = (meniscus.center().unwrap(), 1.0 / meniscus.curvature);
         assert!(relative(center.y + r, y) < 1e-9, "{y}: {meniscus:?}");
-        // It meets both discs under the angle.
+        // It meets both discs at the contact angle.
         let square = radius * radius + r * r + 2.0 * radius * r * theta.cos();
         assert!(relative(center.norm_squared(), square) < 1e-9, "{y}: {meniscus:?}");
         let now = (passage.swept_area(&meniscus), meniscus.curvature);
@@ -145,7 +145,7 @@ fn where_walls_end_a_meniscus_grows_from_their_ends_until_it_touches_a_line() {
     let wall = |x: f64, hand| polyline(&[[x, -1.0], [x, 0.0], [x, 0.5]], 1, FRAC_PI_2, hand);
     let passage = Passage::new(wall(0.0, Hand::Left), wall(1.0, Hand::Right));
     let meniscus = passage.reach(&line(1.0)).unwrap();
-    // Half a circle of the radius 0.5 on the slit of the length 0.5.
+    // A semicircle of radius 0.5 on the slit of length 0.5.
     assert!((meniscus.left.point - Vec2::new(0.0, 0.5)).norm() < 1e-12 && (meniscus.bend - FRAC_PI_2).abs() < 1e-9);
     assert!(relative(passage.swept_area(&meniscus), 0.5 + PI / 8.0) < 1e-9);
 }

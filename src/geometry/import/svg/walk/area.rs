@@ -1,4 +1,4 @@
-//! From one SVG shape to a filled area: what is drawn of it, its rings or its circle, and what is told about it.
+//! From one SVG shape to a filled area: its visible part, its rings or its circle, and notes on it.
 
 use roxmltree::Node;
 
@@ -10,7 +10,7 @@ use crate::geometry::import::svg::style::Fill;
 use crate::math::Vec2;
 
 impl<'a, 'input> Walk<'a, 'input> {
-    /// Adds a shape to the drawing, or counts why it is none of its areas.
+    /// Adds a shape to the drawing, or counts it as unused by the reason.
     pub(super) fn shape(&mut self, node: Node<'a, 'input>, place: &Place<'a>) {
         let style = place.style;
         if !style.is_visible || (style.fill == Fill::None && !style.has_stroke) {
@@ -39,7 +39,7 @@ impl<'a, 'input> Walk<'a, 'input> {
             if !pieces.iter().all(|piece| piece.is_in_range()) {
                 return self.refuse(node, "a coordinate out of range", "coordinates below 1e38 after all transforms");
             }
-            // An outline that is only drawn and left open encloses nothing; a fill closes it.
+            // An open outline that is only stroked encloses nothing; a fill closes it.
             if style.fill == Fill::None && !subpath.is_closed {
                 self.count("open lines");
                 continue;
