@@ -1,33 +1,33 @@
-//! Diagrams as data: what a solver knows of its own history, drawn by others.
+//! Diagrams as data: what a solver records of its history, drawn elsewhere.
 
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What stands along it, with its unit.
+    /// Axis label with unit.
     pub label: &'static str,
-    /// Whether equal steps are equal ratios; what is not above zero is left out then.
+    /// Whether the scale is logarithmic; values that are not above zero are then left out.
     pub logarithmic: bool,
 }
 
-/// How a line is drawn.
+/// Line style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stroke {
     /// A line of its own color.
     Full,
-    /// One of many that belong together: thin and gray.
+    /// One of a family of lines: thin and gray.
     Thin,
-    /// What is expected: dashed and black.
+    /// Expected or theoretical: dashed and black.
     Dashed,
     /// Dots of its own color.
     Dots,
-    /// The area within a closed line, in a light tone of the color of the next line.
+    /// The area inside a closed line, in a light tone of the color of the next line.
     Band,
 }
 
-/// Points in the order in which they are joined.
+/// A sequence of points, joined in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Its name in the legend; empty for none.
+    /// Name in the legend; empty if it has none.
     pub name: String,
     /// How it is drawn.
     pub stroke: Stroke,
@@ -35,14 +35,14 @@ pub struct Trace {
     pub points: Vec<[f64; 2]>,
 }
 
-/// A quantity over both axes, drawn in bands of colors.
+/// A quantity as a function of both axes, drawn as filled contours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
-    /// The quantity with its unit.
+    /// The quantity and its unit.
     pub label: &'static str,
-    /// Ascending places along x: the middles of columns.
+    /// Ascending positions along x: centers of the columns.
     pub x: Vec<f64>,
-    /// Ascending places along y: the middles of rows.
+    /// Ascending positions along y: centers of the rows.
     pub y: Vec<f64>,
     /// Values, row by row.
     pub values: Vec<f64>,
@@ -51,15 +51,15 @@ pub struct Map {
 /// A diagram.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
-    /// Its file is `diagram-NAME.svg`.
+    /// The file is `diagram-NAME.svg`.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// Title, in one line.
     pub title: &'static str,
     /// The axis along x.
     pub x: Axis,
     /// The axis along y.
     pub y: Axis,
-    /// What lies below the lines, if anything.
+    /// The filled map below the lines, if any.
     pub map: Option<Map>,
     /// The lines.
     pub traces: Vec<Trace>,
@@ -68,7 +68,7 @@ pub struct Diagram {
 /// A color as red, green, blue.
 pub(crate) type Color = [u8; 3];
 
-/// The colors of all pictures, which color-blind eyes keep apart (Okabe and Ito 2008). `postprocess/colors.py` has the same.
+/// The colors of all pictures, distinguishable for color-blind readers (Okabe and Ito 2008). `postprocess/colors.py` has the same.
 pub(crate) mod colors {
     use crate::diagram::Color;
 
@@ -78,17 +78,17 @@ pub(crate) mod colors {
     /// The non-wetting phase; darker where it is trapped.
     pub(crate) const NON_WETTING: Color = [230, 159, 0];
     pub(crate) const NON_WETTING_TRAPPED: Color = [166, 86, 0];
-    /// Solids and their walls.
+    /// Solids and walls.
     pub(crate) const SOLID: Color = [190, 190, 190];
     pub(crate) const WALL: Color = [80, 80, 80];
     /// Menisci.
     pub(crate) const MENISCUS: Color = [0, 0, 0];
-    /// A pore without a fluid.
+    /// Pore space without fluid.
     pub(crate) const PORE: Color = [255, 255, 255];
-    /// Where the spacing does not resolve a phase; throats.
+    /// Where the spacing does not resolve a phase; also throats.
     pub(crate) const MARK: Color = [213, 60, 140];
 
-    /// From first to last of what a phase has invaded, about its color.
+    /// From the first to the last region invaded by a phase, around its color.
     pub(crate) const WETTING_IN_ORDER: &[Color] =
         &[[220, 240, 252], [150, 210, 244], WETTING, [30, 140, 200], [0, 104, 165], [0, 66, 110]];
     pub(crate) const NON_WETTING_IN_ORDER: &[Color] =
@@ -97,7 +97,7 @@ pub(crate) mod colors {
     pub(crate) const SIZES: &[Color] = &[[253, 231, 37], [92, 200, 99], [33, 144, 141], [59, 81, 139], [68, 1, 84]];
 }
 
-/// Which way fluids pass an open side.
+/// Direction of flow through an open side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Through {
     /// Into the domain.
@@ -106,64 +106,64 @@ pub enum Through {
     Out,
 }
 
-/// The domain of a picture and what its sides are.
+/// The domain of a picture and its sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// Lower left and upper right corner in m.
     pub bounds: [[f64; 2]; 2],
-    /// What passes the left, right, bottom and top side; none where a side is closed.
+    /// Flow through the left, right, bottom and top side; `None` if a side is closed.
     pub open: [Option<Through>; 4],
-    /// Whether the domain is joined along x and y.
+    /// Whether the domain is periodic along x and y.
     pub periodic: [bool; 2],
 }
 
 /// How an area is colored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tone {
-    /// By a number, along the color bar.
+    /// By value, along the color bar.
     Value(f64),
-    /// By the class of this index.
+    /// By class, given by its index.
     Class(usize),
 }
 
 /// An area of the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Area {
-    /// Its closed boundary in m, the first vertex not repeated.
+    /// Closed boundary in m, the first vertex not repeated.
     pub boundary: Vec<[f64; 2]>,
     /// Its color.
     pub tone: Tone,
 }
 
-/// A line and its width, both in m.
+/// A polyline and its width, both in m.
 pub(crate) type Strip = (Vec<[f64; 2]>, f64);
 
-/// A map of the plane: areas colored by a number, with lines over them.
+/// A map of the plane: areas colored by value, with lines on top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionMap {
-    /// Its file is `picture-NAME.png`; that of the first one `picture.png`.
+    /// The file is `picture-NAME.png`; that of the first one `picture.png`.
     pub name: &'static str,
-    /// What stands below the title: where the run stands.
+    /// Subtitle: the time or state of the run.
     pub note: String,
-    /// The quantity of the color bar with its unit.
+    /// The quantity of the color bar and its unit.
     pub label: &'static str,
-    /// Both ends of the color bar.
+    /// Lower and upper limit of the color bar.
     pub range: [f64; 2],
-    /// The colors along it, from low to high.
+    /// Colors of the color bar, from low to high.
     pub bar: &'static [Color],
     /// Names and colors of the classes.
     pub classes: Vec<(&'static str, Color)>,
-    /// The drawing; what no area covers is solid.
+    /// The domain; whatever no area covers is solid.
     pub frame: Frame,
     /// The areas.
     pub areas: Vec<Area>,
-    /// Thin dark lines: walls.
+    /// Walls: thin dark lines.
     pub walls: Vec<Vec<[f64; 2]>>,
-    /// Lines with their name in the legend.
+    /// Menisci: the legend entry and the lines.
     pub menisci: (&'static str, Vec<Vec<[f64; 2]>>),
-    /// Dashed lines with their name in the legend, below the others.
+    /// Throats: the legend entry and the lines, dashed, below the others.
     pub throats: (&'static str, Vec<Vec<[f64; 2]>>),
-    /// Lines of a width in m with their name in the legend, below the others: films.
+    /// Films: the legend entry and the lines with their width in m, below the others.
     pub strips: (&'static str, Vec<Strip>),
 }
 

@@ -1,9 +1,9 @@
 //! Two-phase flow with partial wetting in pores.
 //!
-//! A run goes one way: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report. The program `meniscus` does all of it; the types below do
+//! A run is a pipeline: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report. The program `meniscus` does all of it; the types below do
 //! each part by itself. SI units; angles in rad, in degrees where a name says so.
 //!
-//! What is `pub` is chosen; the rest is `pub(crate)`, so that the compiler sees what nobody uses.
+//! Only the interface is `pub`; everything else is `pub(crate)`, so that the compiler reports unused items.
 #![warn(unreachable_pub)]
 #![allow(rustdoc::private_intra_doc_links, reason = "comments are for readers of the source too")]
 
@@ -61,7 +61,7 @@ pub mod wetting;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use case::{Case, Loaded, Model, load, load_default};
-/// Shapes as they are written, and the distance from their walls, above 0 in the pore; lengths in m:
+/// Shapes as written in a shape file, and the signed distance to their walls, above 0 in the pore; lengths in m:
 ///
 /// ```
 /// use meniscus::{Channel, Disc, Geometry, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide, Vec2};
@@ -84,7 +84,7 @@ pub use geometry::{
     Geometry, GeometryError,
     spec::{Channel, Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide},
 };
-/// Mistakes come all at once, each with its place and a way out:
+/// All mistakes are reported at once, each with its location and a remedy:
 ///
 /// ```
 /// use meniscus::{InputError, Mistake, Overrides, load_default};
@@ -92,8 +92,8 @@ pub use geometry::{
 /// let overrides = Overrides::parse(&["sph.spacing=-1", "sph.interface.tension=\"high\""])?;
 /// let InputError { mistakes } = load_default(&overrides).unwrap_err();
 /// assert_eq!(mistakes.len(), 2);
-/// let told = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
-/// assert!(mistakes.iter().any(told));
+/// let is_spacing = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
+/// assert!(mistakes.iter().any(is_spacing));
 /// # Ok::<(), InputError>(())
 /// ```
 pub use input::{InputError, Mistake, Overrides};
@@ -120,7 +120,7 @@ pub use math::{Bounds, Vec2};
 /// assert_eq!((regions.len(), throats.len()), (2, 1));
 /// assert!((throats[0].width - 0.2e-3).abs() < 1e-15);
 ///
-/// // A gas displaces a liquid that wets all walls: angles of the shapes, then of the sides.
+/// // A gas displaces a liquid that wets all walls: contact angles of the shapes, then of the sides.
 /// let conditions = Conditions {
 ///     angle: vec![0.0; 2 + 4],
 ///     inlet: [true, false, false, false],
@@ -160,7 +160,7 @@ pub use network::{
 pub use run::execute::{Finished, Job, Mode, RunError, execute};
 pub use run::setup::build as solver_of;
 pub use run::simulation::{Unwatched, Watcher};
-/// What output sees of a solver:
+/// The state of a solver as output reads it:
 ///
 /// ```
 /// use meniscus::{Field, Overrides, Snapshot, Values, load_default, solver_of};
@@ -173,7 +173,7 @@ pub use run::simulation::{Unwatched, Watcher};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use snapshot::{Field, Snapshot, Values};
-/// A solver, whatever its model, and what it measures:
+/// A solver, whichever its model, and its measures:
 ///
 /// ```
 /// use meniscus::{Measure, Overrides, Series, Solver, SolverError, load_default, solver_of};
@@ -188,7 +188,7 @@ pub use snapshot::{Field, Snapshot, Values};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub use solver::{Measure, Series, Solver, SolverError};
-/// Wetting laws: the angle of a contact line from its state:
+/// Wetting laws: the contact angle as a function of the state of the contact line:
 ///
 /// ```
 /// use meniscus::{LineState, Wetting, Young};

@@ -1,10 +1,10 @@
-//! The `meniscus` program; all of it is in the library.
+//! The `meniscus` program; a thin wrapper of the library.
 
 use std::process::ExitCode;
 
 use mimalloc::MiMalloc;
 
-/// Keeps the large arrays of a step: returned to the system and fetched again they cost a seventh of it (docs/numerics/overview.md).
+/// Keeps the large arrays of a step: returning them to the system and allocating them anew costs a seventh of it (docs/numerics/overview.md).
 #[global_allocator]
 static ALLOCATOR: MiMalloc = MiMalloc;
 

@@ -1,9 +1,9 @@
-//! The small mathematics of the plane: two-vectors and two-by-two matrices of nalgebra, boxes, the shape of the kernel.
+//! Plane geometry and small helpers: 2-vectors and 2×2 matrices of nalgebra, boxes, the shape of the kernel.
 
-/// Start value of the hash FNV-1a of 64 bits.
+/// Offset basis of the 64-bit FNV-1a hash.
 pub(crate) const FNV1A_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// The hash FNV-1a of 64 bits (Fowler, Noll, Vo), gone on with from `hash`: the same on every machine and version.
+/// The 64-bit FNV-1a hash (Fowler, Noll, Vo), continued from `hash`: the same on every machine and version.
 pub(crate) fn fnv1a(hash: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
     const PRIME: u64 = 0x0100_0000_01b3;
     bytes.into_iter().fold(hash, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
@@ -15,7 +15,7 @@ pub type Vec2 = nalgebra::Vector2<f64>;
 /// A linear map of the plane.
 pub(crate) type Mat2 = nalgebra::Matrix2<f64>;
 
-/// The vector `v` turned by +90 degrees.
+/// The vector `v` rotated by +90 degrees.
 pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
@@ -26,10 +26,10 @@ pub(crate) fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 
     Vec2::new(wrap(difference.x, period[0]), wrap(difference.y, period[1]))
 }
 
-/// Half the second moment of [`wendland_c2`] along a line through its center, over that of zeroth order, in h².
+/// Half the second moment of [`wendland_c2`] along a line through its center, divided by its zeroth moment, in h².
 ///
-/// The share k²h² times this is what smoothing takes from a wave of an interface; of a disc of the curvature κ it draws the level 1/2
-/// towards the center by this times h²κ.
+/// Smoothing reduces the amplitude of an interface wave of wavenumber k by k²h² times this, and shifts the level 1/2 of a disc of curvature κ towards its
+/// center by this times h²κ.
 pub(crate) const LINE_MOMENT: f64 = 1.0 / 7.0;
 
 /// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is
@@ -66,7 +66,7 @@ impl Bounds {
         0.5 * (self.min + self.max)
     }
 
-    /// The smallest box around points, where there are any.
+    /// The bounding box of `points`; `None` if there are none.
     pub(crate) fn around(mut points: impl Iterator<Item = Vec2>) -> Option<Self> {
         let first = points.next()?;
         Some(points.fold(Self { min: first, max: first }, |b, x| Self { min: b.min.inf(&x), max: b.max.sup(&x) }))
@@ -82,7 +82,7 @@ impl Bounds {
         (0..2).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
     }
 
-    /// The smallest box around both.
+    /// The smallest box that contains both.
     pub(crate) fn united(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
@@ -94,13 +94,13 @@ impl Bounds {
     }
 }
 
-/// Lets faer work in one thread from now on: what it sums in parts would depend on the number of threads. We build it without threads,
-/// but a program that uses this library may have it with them.
+/// Restricts faer to one thread from now on: its partial sums would depend on the number of threads. We build it without threads, but a program that uses this
+/// library may enable them.
 pub fn factor_in_one_thread() {
     faer::set_global_parallelism(faer::Par::Seq);
 }
 
-/// The root of a node in a forest of disjoint sets, whose paths it halves: `parent` has the parent of each node, a root its own.
+/// The root of a node in a disjoint-set forest, with path halving: `parent` has the parent of each node, a root its own.
 pub(crate) fn root(parent: &mut [usize], mut node: usize) -> usize {
     while parent[node] != node {
         parent[node] = parent[parent[node]];

@@ -1,4 +1,4 @@
-//! What output sees of a solver: points, named fields with units, a grid, lines. No solver type.
+//! The state of a solver as output reads it: points, named fields with units, a grid, lines. Independent of the type of the solver.
 
 use std::borrow::Cow;
 
@@ -9,14 +9,14 @@ use crate::math::Vec2;
 pub enum Values<'a> {
     /// One number per point.
     Scalar(Cow<'a, [f64]>),
-    /// One vector of the plane per point.
+    /// One 2-vector per point.
     Vector(Cow<'a, [Vec2]>),
-    /// One whole number per point.
+    /// One integer per point.
     Integer(Cow<'a, [i64]>),
 }
 
 impl Values<'_> {
-    /// The same with values of their own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Values<'static> {
         match self {
             Self::Scalar(values) => Values::Scalar(Cow::Owned(values.into_owned())),
@@ -29,22 +29,22 @@ impl Values<'_> {
 /// A named field with its unit.
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
-    /// Name as it stands in the output contract, such as `wall-distance`.
+    /// Name in the output contract, such as `wall-distance`.
     pub name: &'static str,
-    /// SI unit, such as `m/s`; empty for pure numbers.
+    /// SI unit, such as `m/s`; empty if dimensionless.
     pub unit: &'static str,
     /// One value per point.
     pub values: Values<'a>,
 }
 
 impl Field<'_> {
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Field<'static> {
         Field { name: self.name, unit: self.unit, values: self.values.into_owned() }
     }
 }
 
-/// Fields with values of their own.
+/// Fields with owned values.
 fn owned(fields: Vec<Field<'_>>) -> Vec<Field<'static>> {
     fields.into_iter().map(Field::into_owned).collect()
 }
@@ -59,7 +59,7 @@ pub struct Cloud<'a> {
 }
 
 impl Cloud<'_> {
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Cloud<'static> {
         Cloud { points: Cow::Owned(self.points.into_owned()), fields: owned(self.fields) }
     }
@@ -70,7 +70,7 @@ impl Cloud<'_> {
 pub struct Grid<'a> {
     /// Position of the first node in m.
     pub origin: Vec2,
-    /// Distance of neighboring nodes in m.
+    /// Distance between neighboring nodes in m.
     pub spacing: Vec2,
     /// Number of nodes along x and y.
     pub counts: [usize; 2],
@@ -85,7 +85,7 @@ impl Grid<'_> {
         (0..self.counts[1]).flat_map(|y| (0..self.counts[0]).map(move |x| node(x, y))).collect()
     }
 
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Grid<'static> {
         Grid { origin: self.origin, spacing: self.spacing, counts: self.counts, fields: owned(self.fields) }
     }
@@ -103,18 +103,18 @@ pub struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    /// The same with values of their own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Lines<'static> {
         Lines { points: Cow::Owned(self.points.into_owned()), lines: self.lines, fields: owned(self.fields) }
     }
 }
 
-/// What the cells of a layer are.
+/// Kind of the cells of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellKind {
-    /// Single points.
+    /// Points.
     Points,
-    /// Lines of two points.
+    /// Line segments.
     Lines,
     /// Polygons, not closed by repeating the first vertex.
     Polygons,
@@ -123,9 +123,9 @@ pub enum CellKind {
 /// Cells of one kind with fields on them: pores, throats, regions.
 #[derive(Debug, Clone)]
 pub struct Layer<'a> {
-    /// Name of its files.
+    /// Base name of its files.
     pub name: &'static str,
-    /// What its cells are.
+    /// Kind of its cells.
     pub kind: CellKind,
     /// Vertices in m.
     pub points: Cow<'a, [Vec2]>,
@@ -136,7 +136,7 @@ pub struct Layer<'a> {
 }
 
 impl Layer<'_> {
-    /// The same with values of its own.
+    /// The same with owned values.
     pub(crate) fn into_owned(self) -> Layer<'static> {
         let (points, fields) = (Cow::Owned(self.points.into_owned()), owned(self.fields));
         Layer { name: self.name, kind: self.kind, points, cells: self.cells, fields }
@@ -154,12 +154,12 @@ pub struct Snapshot<'a> {
     pub particles: Cloud<'a>,
     /// The same fields on a regular grid, where the solver offers them.
     pub grid: Option<Grid<'a>>,
-    /// The interface between the fluids, where there is one.
+    /// The interface between the fluids, if there is one.
     pub interface: Option<Lines<'a>>,
 }
 
 impl Snapshot<'_> {
-    /// The same with values of its own, which outlives the solver's next step.
+    /// The same with owned values, which outlives the next step of the solver.
     pub(crate) fn into_owned(self) -> Snapshot<'static> {
         Snapshot {
             time: self.time,

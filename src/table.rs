@@ -1,13 +1,13 @@
-//! Tables and texts as data: what a solver has to say at its end, written by others.
+//! Tables and texts as data: results of a solver at its end, written elsewhere.
 
 /// The values of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
-    /// Numbers; NaN where there is none.
+    /// Numbers; NaN if absent.
     Numbers(Vec<f64>),
-    /// Whole numbers.
+    /// Integers.
     Counts(Vec<usize>),
-    /// Whole numbers that may be absent.
+    /// Indices that may be absent.
     Places(Vec<Option<usize>>),
     /// Yes or no, written `True` and `False`.
     Flags(Vec<bool>),
@@ -37,7 +37,7 @@ pub struct Column {
     pub cells: Cells,
 }
 
-/// Columns side by side; where one is shorter, its fields are empty below.
+/// Columns side by side; shorter ones are padded with empty fields.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Its file is `NAME.csv`.
@@ -51,6 +51,6 @@ pub struct Table {
 pub struct Document {
     /// Name of the file.
     pub name: &'static str,
-    /// What stands in it.
+    /// Its content.
     pub text: String,
 }

@@ -1,4 +1,4 @@
-//! A call from Python: the work goes on in threads of its own, without the interpreter's lock, while the thread that called looks after signals and progress.
+//! A call from Python: the work runs in its own threads without the interpreter's lock, while the calling thread handles signals and progress.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
@@ -13,39 +13,39 @@ use rayon::ThreadPoolBuilder;
 use crate::data::Data;
 use crate::fields;
 
-/// Time between two looks at signals.
+/// Polling interval for signals.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
-/// Looks between two calls of the progress function.
+/// Polls between two calls of the progress function.
 const LOOKS_PER_REPORT: u32 = 5;
 
-/// Where the work stands: a share of it, and a text.
+/// Progress of the work: the fraction done, and a text.
 type Standing = Mutex<Option<(f64, String)>>;
 
-/// Runs that are going on in this process, by the name that they were given.
+/// Runs in progress in this process, by token.
 static GOING_ON: Mutex<Vec<(String, Arc<AtomicBool>)>> = Mutex::new(Vec::new());
 
-/// How a call is made.
+/// Settings of a call.
 pub(crate) struct Call {
-    /// Number of threads; all cores where there is none.
+    /// Number of threads; all cores if `None`.
     pub(crate) threads: Option<usize>,
-    /// A function of a share from 0 to 1 and a text.
+    /// Progress function of a fraction from 0 to 1 and a text.
     pub(crate) progress: Option<Py<PyAny>>,
-    /// A name by which [`stop`] finds it.
+    /// Name by which [`stop`] finds the call.
     pub(crate) token: Option<String>,
 }
 
-/// What the work sees of its call.
+/// The call as its work has it.
 pub(crate) struct Work<'a> {
-    /// Set where the work is to stop.
+    /// Set when the work is to stop.
     pub(crate) interrupt: &'a AtomicBool,
     standing: &'a Standing,
 }
 
 impl Work<'_> {
-    /// Tells where the work stands.
+    /// Reports progress.
     pub(crate) fn tell(&self, share: f64, text: impl FnOnce() -> String) {
         let mut standing = self.standing.lock().unwrap_or_else(PoisonError::into_inner);
-        // A text that nobody asked for is not made.
+        // The text is only made if somebody listens.
         if standing.is_none() {
             *standing = Some((share, text()));
         }
@@ -57,13 +57,13 @@ impl Work<'_> {
     }
 }
 
-/// Asks the calls of a name to stop.
+/// Requests the calls with this token to stop.
 pub(crate) fn stop(token: &str) {
     let going_on = GOING_ON.lock().unwrap_or_else(PoisonError::into_inner);
     going_on.iter().filter(|(name, _)| name == token).for_each(|(_, flag)| flag.store(true, Ordering::Relaxed));
 }
 
-/// The right to be found by [`stop`].
+/// Registration of a call for [`stop`]; ends when dropped.
 struct Registered(Arc<AtomicBool>);
 
 impl Registered {
@@ -83,15 +83,15 @@ impl Drop for Registered {
     }
 }
 
-/// Cores of this machine that this process may use.
+/// Cores of this machine available to this process.
 fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Does the work in a pool of threads that ends with it: none is left that a process which is copied from this one would miss.
+/// Does the work in a pool of threads that ends with it: a fork of this process must not miss threads of a pool.
 ///
 /// # Errors
-/// What a signal or the progress function raises, when the work has stopped.
+/// Whatever a signal or the progress function raises, after the work has stopped.
 pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<'_>) -> T + Send) -> PyResult<T> {
     let Call { threads, progress, token } = call;
     let asked = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|threads| *threads > 0);
@@ -113,7 +113,7 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
             loop {
                 match is_done.recv_timeout(BETWEEN_LOOKS) {
                     Ok(found) => return (Some(found), raised),
-                    // It panicked: the scope passes that on.
+                    // It panicked: the scope propagates that.
                     Err(mpsc::RecvTimeoutError::Disconnected) => return (None, raised),
                     Err(mpsc::RecvTimeoutError::Timeout) => {}
                 }
@@ -137,7 +137,7 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
     found.ok_or_else(|| PyRuntimeError::new_err("the work ended without a result"))
 }
 
-/// Lets Python handle signals, and tells where the work stands.
+/// Lets Python handle signals, and reports progress.
 fn look(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
     py.check_signals()?;
     if let Some(progress) = progress {
@@ -149,14 +149,14 @@ fn look(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> Py
     Ok(())
 }
 
-/// Watches a run for a call, and keeps its frames where they are asked for.
+/// Observes a run for a call, and keeps its frames if requested.
 pub(crate) struct Observer<'a> {
     work: &'a Work<'a>,
     frames: Option<Vec<Data>>,
 }
 
 impl<'a> Observer<'a> {
-    /// One that keeps the frames or does not.
+    /// An observer that keeps the frames or not.
     pub(crate) fn new(work: &'a Work<'a>, keeps_frames: bool) -> Self {
         Self { work, frames: keeps_frames.then(Vec::new) }
     }

@@ -1,4 +1,4 @@
-//! What a solver shows, as data for Python, in the words and with the bits of the files that a run writes.
+//! The fields of a solver as data for Python, with the names and the exact values of the files that a run writes.
 
 use meniscus::diagram::{Diagram, Stroke};
 use meniscus::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines};
@@ -7,7 +7,7 @@ use meniscus::{Series, Snapshot, Solver, Values, Vec2};
 
 use crate::data::Data;
 
-/// The state at one time: what VTK files of that time hold.
+/// The state at one time: the content of the VTK files of that time.
 pub(crate) fn frame(time: f64, snapshot: &Snapshot<'_>, layers: &[Layer<'_>]) -> Data {
     Data::group([
         ("time", Data::Number(time)),
@@ -18,7 +18,7 @@ pub(crate) fn frame(time: f64, snapshot: &Snapshot<'_>, layers: &[Layer<'_>]) ->
     ])
 }
 
-/// All that a solver shows at its end.
+/// All output of a solver at its end.
 pub(crate) fn all(solver: &dyn Solver) -> Data {
     let mut results = solver.results();
     let mut layers = solver.layers();
@@ -105,7 +105,7 @@ fn layer(layer: &Layer<'_>) -> Data {
     Data::group([("kind", Data::text(kind)), ("points", points(&layer.points)), vertices, ends, values, units])
 }
 
-/// As the file has it: numbers that do not exist are NaN, absent places are -1, and minus zero is zero.
+/// As in the file: absent numbers are NaN, absent indices are -1, and minus zero is zero.
 fn table(table: &Table) -> Data {
     let number = |value: &f64| if value.is_finite() { value + 0.0 } else { f64::NAN };
     let column = |cells: &Cells| match cells {

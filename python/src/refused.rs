@@ -1,21 +1,21 @@
-//! Errors as Python raises them: classes of `meniscus.errors`, with the text that the program has for them.
+//! Errors as Python exceptions: classes of `meniscus.errors`, with the messages of the program.
 
 use meniscus::run::source::Refusal;
 use meniscus::{InputError, Mistake};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// What ends a call without a result.
+/// Why a call has no result.
 pub(crate) enum Refused {
-    /// Mistakes in what was given.
+    /// Mistakes in the input.
     Case(Refusal),
-    /// Mistakes in a dict, whose text as TOML this is.
+    /// Mistakes in a dict, with its text as TOML.
     Dict(InputError, String),
     /// A folder or file that cannot be used.
     Folder(String),
     /// The solver failed before there was a result.
     Solver(String),
-    /// The call was asked to stop.
+    /// The call was stopped on request.
     Stopped,
 }
 
@@ -31,7 +31,7 @@ impl From<InputError> for Refused {
     }
 }
 
-/// A mistake as Python sees it.
+/// A mistake as Python shows it.
 struct Told {
     file: Option<String>,
     place: Option<(usize, usize)>,
@@ -41,7 +41,7 @@ struct Told {
 }
 
 impl Told {
-    /// A mistake of a file, or of a dict that was written as `text`.
+    /// A mistake in a file, or in a dict that was written as `text`.
     fn of(mistake: &Mistake, text: Option<&str>) -> Self {
         let (message, help) = (mistake.message.clone(), mistake.help_text().to_owned());
         let set = mistake.name.strip_prefix("--set ").and_then(|set| set.split_once('='));
@@ -54,7 +54,7 @@ impl Told {
         Self { file: Some(mistake.name.clone()), place: mistake.place, key: None, message, help }
     }
 
-    /// As the program tells it: the place, the message, and below it the way out.
+    /// As the program prints it: the location, the message, and below it the remedy.
     fn text(&self) -> String {
         let place = match (&self.file, self.place, &self.key) {
             (Some(file), Some((line, column)), _) => format!("{file}:{line}:{column}: "),
@@ -78,11 +78,11 @@ impl Told {
     }
 }
 
-/// How a dict is called in messages of the library.
+/// Name of a dict in messages of the library.
 pub(crate) const DICT: &str = "case";
 
 impl Refused {
-    /// The error that is raised.
+    /// The exception to raise.
     pub(crate) fn into_error(self, py: Python<'_>) -> PyErr {
         let raised = match self {
             Self::Case(Refusal::Input(error)) => case_error(py, of_input(&error, None)),
@@ -124,7 +124,7 @@ fn case_error(py: Python<'_>, told: Vec<Told>) -> PyResult<Bound<'_, PyAny>> {
     class(py, "CaseError")?.call1((text, mistakes))
 }
 
-/// The key path at a line, from 1, of a text that was written by the TOML library: a header per table, and a key per line.
+/// The key path at a line, from 1, of a text written by the TOML library: a header per table, and a key per line.
 fn key_at(text: &str, line: usize) -> Option<String> {
     let before: Vec<&str> = text.lines().take(line).collect();
     let header = before.iter().rfind(|line| line.starts_with('['));
@@ -146,7 +146,7 @@ fn key_at(text: &str, line: usize) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join("."))
 }
 
-/// The parameter of `meniscus.network` that a key of a case file stands for.
+/// The parameter of `meniscus.network` that corresponds to a key of a case file.
 fn parameter(key: &str) -> String {
     match key.trim_start_matches("network.").trim_start_matches("geometry.") {
         "wetting.young.contact-angle-deg" => "angle_deg".to_owned(),

@@ -1,15 +1,15 @@
-//! Disconnected parts of a phase: connected components of its particles, by union-find.
+//! Ganglia: connected components of the particles of a phase, by union-find.
 //!
-//! Two particles of the phase are joined where they are nearer than [`LINK`] spacings: more than the diagonal of the
-//! lattice (1.41), less than the next but one neighbor (2).
+//! Two particles of the phase are connected if they are nearer than [`LINK`] spacings: more than the diagonal of the lattice (1.41), less than the second
+//! neighbor (2).
 
 use super::cells::Cells;
 use crate::math::{Vec2, root};
 
-/// Largest distance of joined particles in particle spacings.
+/// Largest distance of connected particles in particle spacings.
 pub(crate) const LINK: f64 = 1.6;
 
-/// A connected part of a phase.
+/// A ganglion: a connected part of a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blob {
     /// Number of particles.
@@ -22,7 +22,7 @@ pub struct Blob {
 
 /// Connected components of the particles with `member`, largest first.
 ///
-/// `points` in m, `volumes` in m², `link` the largest distance of joined particles in m, `period` in m.
+/// `points` in m, `volumes` in m², `link` the largest distance of connected particles in m, `period` in m.
 pub(crate) fn blobs(
     points: &[Vec2],
     volumes: &[f64],

@@ -26,18 +26,18 @@ pub(crate) struct CompareArguments {
     /// States of the direct simulation that are compared
     #[arg(long, value_name = "N", default_value = "100")]
     pub(crate) records: std::num::NonZeroUsize,
-    /// Output folder, new or empty; where there is none: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
+    /// Output folder, new or empty; if not given: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on with an interrupted comparison in its folder
+    /// Continue an interrupted comparison in its folder
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Number of threads; all cores where there is none. The results do not depend on it
+    /// Number of threads; all cores if not given. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
 
-/// Runs both cases, writes the page, the numbers and the curves, and tells what came out.
+/// Runs both cases, writes the page, the numbers and the curves, and prints the results.
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;

@@ -11,7 +11,7 @@ use super::output::{complain, say};
 use super::threads::pool;
 use super::{check, compare, couple, geometry, list, man, network, new, output, run, source, study, threads};
 
-/// Reads the command line and does what it says.
+/// Reads the command line and executes it.
 pub fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
         let place = panic.location().map_or(String::new(), |place| format!(" ({}:{})", place.file(), place.line()));
@@ -33,7 +33,7 @@ pub fn main() -> ExitCode {
                 failure.code
             })
         }
-        // Help and version come this way too.
+        // Help and version also arrive here.
         Err(told) => {
             let printed = told.print();
             if !told.use_stderr() {

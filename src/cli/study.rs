@@ -18,7 +18,7 @@ use crate::study::values::shown;
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1_048_576.0;
 
-/// Does what the command says.
+/// Executes the command.
 pub(crate) fn study(command: &StudyCommand) -> Result<u8, Failure> {
     match command {
         StudyCommand::Plan(arguments) => tell_plan(arguments),
@@ -62,10 +62,10 @@ pub(crate) fn schema() -> String {
     format!("{:#}", crate::study::schema())
 }
 
-/// The runs with what they would take.
+/// The runs with their estimated cost.
 fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> Table {
     let mut heads = vec!["run".to_owned()];
-    // Numbers to compare with change nothing in a run.
+    // Numbers given only for comparison change nothing in a run.
     let changes: Vec<bool> = study.parameters().map(|column| column.target != Target::Nothing).collect();
     heads.extend(study.parameters().zip(&changes).filter(|(_, changes)| **changes).map(|(c, _)| c.name.clone()));
     heads.extend(["unknowns", "steps", "memory", "duration", "state"].map(str::to_owned));
@@ -85,14 +85,14 @@ fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> T
     Table { heads, rows: results.iter().zip(estimates).map(row).collect() }
 }
 
-/// What is left to do, with the cores that are given to it.
+/// The remaining work, with the given cores.
 fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String {
     let open = || results.iter().zip(estimates).filter(|(result, _)| result.standing.report().is_none());
     let seconds: Vec<f64> =
         open().filter_map(|(_, estimate)| estimate.as_ref().ok()).map(|trial| trial.duration_s).collect();
-    // The sum of nothing is minus zero.
+    // An empty sum is minus zero.
     let total = seconds.iter().sum::<f64>() + 0.0;
-    // As many runs at once as there are jobs; none is shorter than the longest of them.
+    // Concurrent runs: the number of jobs; the wall time is at least that of the longest run.
     let wall = (total / cores.jobs as f64).max(seconds.iter().copied().fold(0.0, f64::max)) + 0.0;
     let mut memory: Vec<u64> = open().map(|(_, estimate)| memory_of(Some(estimate))).collect();
     memory.sort_unstable_by(|a, b| b.cmp(a));

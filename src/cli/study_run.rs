@@ -25,7 +25,7 @@ use crate::study::slurm::{Array, submit};
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
 
-/// Does the runs; the exit code says how the studies stand.
+/// Does the runs; the exit code is the status of the studies.
 pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     if let Some(index) = arguments.index {
         let [study] = arguments.files.studies.as_slice() else {
@@ -71,7 +71,7 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     Ok(if ends.contains(&End::Interrupted) { INTERRUPTED } else { code })
 }
 
-/// Tells how the study goes on.
+/// Prints the progress of the study.
 struct Teller {
     count: usize,
     ended: usize,
@@ -99,7 +99,7 @@ fn word(end: &End, time: Duration) -> String {
     }
 }
 
-/// The runs that are not complete as a job array.
+/// The incomplete runs as a job array.
 fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let cores = cores(&arguments.cores);
     let kept = opened.folder.estimates();
@@ -173,12 +173,12 @@ fn failure(error: ExecuteError) -> Failure {
     }
 }
 
-/// Sets the flag when the standard input closes: the process that started this one holds its other end.
+/// Sets the flag when the standard input closes: the parent process holds its other end.
 fn stop_with_parent(flag: &Arc<AtomicBool>) {
     let flag = Arc::clone(flag);
     std::thread::spawn(move || {
         let mut rest = Vec::new();
-        // Whatever ends the reading, there is no parent to work for any more.
+        // However the read ends, the parent is gone.
         let _ = std::io::stdin().read_to_end(&mut rest);
         flag.store(true, Ordering::Relaxed);
     });

@@ -22,7 +22,7 @@ use crate::verify::results::{Row, Status, row};
 use crate::verify::subdomain::Impossible;
 use crate::verify::subject::{Subject, SubjectError};
 
-/// Chooses, writes, runs, and tells.
+/// Selects throats and events, writes the cases, runs them, and prints the results.
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);

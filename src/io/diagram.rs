@@ -1,4 +1,4 @@
-//! Draws a [`Diagram`] as SVG: a map in bands of colors, lines over it, the legend beside it (`plotters`).
+//! Draws a [`Diagram`] as SVG: a map as filled contours, lines over it, the legend beside it (`plotters`).
 
 use plotters::coord::combinators::BindKeyPoints;
 use plotters::prelude::*;
@@ -8,12 +8,12 @@ use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
 
 /// Width and height of the drawing in pixels.
 const SIZE: (u32, u32) = (620, 440);
-/// Bands of color of a map; few enough to be seen, and to keep files small.
+/// Color bands of a map; few enough to be distinguishable, and to keep files small.
 const BANDS: usize = 16;
 /// Lightest and darkest band.
 const LIGHT: [f64; 3] = [235.0, 243.0, 250.0];
 const DARK: [f64; 3] = [8.0, 48.0, 107.0];
-/// Share of its color that a band has more than the one below it.
+/// Opacity that each band adds to the one below it.
 const BAND_SHARE: f64 = 0.25;
 const GRAY: RGBColor = RGBColor(150, 150, 150);
 
@@ -23,11 +23,11 @@ const GRAY: RGBColor = RGBColor(150, 150, 150);
 pub struct DiagramError {
     /// Its name.
     pub name: &'static str,
-    /// What the drawing library says.
+    /// The error of the drawing library.
     pub why: String,
 }
 
-/// The diagram as SVG; none where nothing can be shown.
+/// The diagram as SVG; `None` if there is nothing to show.
 pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
     let shown = |axis: &Axis, value: f64| value.is_finite() && (!axis.logarithmic || value > 0.0);
     let fits = |point: &[f64; 2]| shown(&diagram.x, point[0]) && shown(&diagram.y, point[1]);
@@ -65,7 +65,7 @@ fn ends(places: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
     edges.first().copied().unwrap_or(0.0)..edges.last().copied().unwrap_or(1.0)
 }
 
-/// The edges between places, in the middle of each two, and those of the first and the last.
+/// The edges between positions, at the midpoints, and those of the first and the last.
 fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
     let to = |x: f64| if logarithmic { x.ln() } else { x };
     let from = |x: f64| if logarithmic { x.exp() } else { x };
@@ -85,13 +85,13 @@ fn band_color(band: usize) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
-/// A share of a color on white.
+/// A color mixed with white; `share` is its fraction.
 fn lightened(color: RGBColor, share: f64) -> RGBColor {
     let mix = |part: u8| (255.0 - share.min(1.0) * (255.0 - f64::from(part))).round() as u8;
     RGBColor(mix(color.0), mix(color.1), mix(color.2))
 }
 
-/// Rectangles of one band each: from and to corner.
+/// Rectangles, each of one band: from and to corner.
 fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
     let highest = map.values.iter().copied().fold(0.0, f64::max);
     let band = |value: f64| ((value / highest * BANDS as f64).max(0.0) as usize).min(BANDS - 1);
@@ -124,7 +124,7 @@ fn draw<'a>(
             Stroke::Thin => GRAY,
             Stroke::Dashed => BLACK,
             Stroke::Full | Stroke::Dots => color_of(colors.next().unwrap_or(0)),
-            // Each lies upon the one before.
+            // Each lies on top of the one before.
             Stroke::Band => {
                 stacked += 1;
                 lightened(color_of(colors.start), BAND_SHARE * f64::from(stacked))

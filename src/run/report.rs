@@ -1,4 +1,4 @@
-//! `report.json`: how a run ended and what came out of it. A value that does not exist (NaN) is `null`.
+//! `report.json`: how a run ended and its results. A value that does not exist (NaN) is `null`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,17 +19,17 @@ pub(crate) const REPORT: &str = "report.json";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It reached the end, and all that was expected came out.
+    /// It reached the end, and all expectations are met.
     Done,
     /// It was stopped by the user and can be resumed.
     Interrupted,
     /// The solver failed, or a file could not be written.
     Failed,
-    /// It reached the end, but a measure is not what was expected.
+    /// It reached the end, but a measure does not meet its expectation.
     ExpectationFailed,
 }
 
-/// The machine that a run ran on.
+/// The machine of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Machine {
     /// Number of cores that the system offers.
@@ -55,15 +55,15 @@ impl Machine {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Reading {
-    /// Value in `unit`; absent where it could not be measured.
+    /// Value in `unit`; `None` if it could not be measured.
     pub value: Option<f64>,
-    /// Unit, empty for pure numbers.
+    /// Unit, empty if dimensionless.
     pub unit: String,
-    /// One standard uncertainty in `unit`, where one is known.
+    /// One standard uncertainty in `unit`, if known.
     pub uncertainty: Option<f64>,
     /// How it was measured.
     pub method: String,
-    /// How it still moves, where that is by more than the uncertainty of its value at one time.
+    /// How it still moves, if by more than the uncertainty of its value at one time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_at_rest: Option<Motion>,
 }
@@ -77,7 +77,7 @@ pub struct Motion {
     pub unit: String,
 }
 
-/// An expectation and what came out.
+/// An expectation and its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Name of the measure.
@@ -86,9 +86,9 @@ pub struct Verdict {
     pub value: f64,
     /// Largest accepted deviation, same unit.
     pub tolerance: f64,
-    /// What was measured; absent where it could not be.
+    /// Measured value; `None` if it could not be measured.
     pub measured: Option<f64>,
-    /// Whether it is within the tolerance; absent where the run did not reach its end.
+    /// Whether it is within the tolerance; `None` if the run did not reach its end.
     pub pass: Option<bool>,
 }
 
@@ -101,13 +101,13 @@ pub struct WallTime {
     pub parts: BTreeMap<&'static str, f64>,
 }
 
-/// Where a run stands on its clock.
+/// Progress of a run on its clock.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reached {
-    /// What is counted.
+    /// The clock.
     #[serde(flatten)]
     pub clock: Clock,
-    /// How far it went, in the unit of the clock.
+    /// Its value, in the unit of the clock.
     pub value: f64,
 }
 
@@ -119,7 +119,7 @@ pub struct Report {
     pub version: &'static str,
     /// How the run ended.
     pub status: Status,
-    /// What went wrong, where something did.
+    /// What went wrong, if anything.
     pub error: Option<String>,
     /// Time reached in s; absent where the run goes along something else.
     pub time_s: Option<f64>,

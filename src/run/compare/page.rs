@@ -1,4 +1,4 @@
-//! The page of a comparison: one HTML file without outside resources.
+//! The page of a comparison: one HTML file without external resources.
 
 use std::fmt::Write;
 
@@ -75,8 +75,8 @@ fn warnings(comparison: &Comparison) -> String {
     if all.is_empty() { all } else { format!("<h2>Warnings</h2>\n<ul>\n{all}</ul>\n") }
 }
 
-/// Both curves on one pair of axes each: capillary pressure over saturation; of displacements in time saturation over time, and the pressure difference over
-/// time and over saturation.
+/// Both curves in common axes: capillary pressure over saturation; of displacements in time, saturation over time, and the pressure difference over time and
+/// over saturation.
 pub(crate) fn diagrams(comparison: &Comparison) -> Vec<Diagram> {
     if comparison.is_in_time { in_time(comparison) } else { vec![quasi_static(comparison)] }
 }
@@ -85,7 +85,7 @@ fn trace(name: &str, points: Vec<[f64; 2]>) -> Trace {
     Trace { name: name.to_owned(), stroke: Stroke::Full, points }
 }
 
-/// Pairs where there is a pressure.
+/// Pairs for which there is a pressure.
 fn known(over: &[f64], pressures: &[Option<f64>]) -> Vec<[f64; 2]> {
     over.iter().zip(pressures).filter_map(|(over, pressure)| Some([*over, (*pressure)?])).collect()
 }
@@ -94,7 +94,7 @@ const SATURATION: &str = "saturation of the wetting phase";
 
 fn quasi_static(comparison: &Comparison) -> Diagram {
     let points = |side: &Side| known(&side.saturation, &side.capillary_pressure_pa);
-    // Of the network the pressure rises at constant saturation, and the saturation changes at constant pressure.
+    // In the network, the pressure rises at constant saturation, and the saturation changes at constant pressure.
     let network = points(&comparison.network);
     let first = comparison.network.saturation.first().copied();
     let before = first.into_iter().chain(network.iter().map(|point| point[0]));

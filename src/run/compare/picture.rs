@@ -1,5 +1,5 @@
-//! Two displacements at one saturation as SVG: the network on the left, the direct simulation on the right, each a map of the phases under the outline of
-//! the solids.
+//! Two displacements at one saturation as SVG: the network on the left, the direct simulation on the right, each a map of the phases under the outline of the
+//! solids.
 
 use std::fmt::Write;
 
@@ -13,23 +13,23 @@ use crate::snapshot::Lines;
 /// Width of a map in pixels of the page, and the gap between both.
 const WIDTH: f64 = 468.0;
 const GAP: f64 = 24.0;
-/// Room for titles above the maps, and for scale bar and legend below them.
+/// Space for titles above the maps, and for scale bar and legend below them.
 const HEAD: f64 = 30.0;
 const FOOT: f64 = 46.0;
-/// The scale bar takes at most this share of a map.
+/// Largest width of the scale bar relative to that of a map.
 const BAR: f64 = 0.25;
 
-/// What both maps have in common.
+/// Common to both maps.
 pub(crate) struct Maps<'a> {
     /// Their cells.
     pub(crate) grid: &'a Grid,
     /// The outline of the solids in m.
     pub(crate) outline: &'a Lines<'a>,
-    /// The phase that comes in.
+    /// The invading phase.
     pub(crate) invading: FluidPhase,
 }
 
-/// Both maps; `invaded` tells for each cell of the pore whether it holds the invading phase, `saturation` what the wetting phase holds.
+/// Both maps; `invaded` states for each cell of the pore whether it has the invading phase, `saturation` is that of the wetting phase.
 pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) -> String {
     let [columns, rows] = maps.grid.counts;
     let size = maps.grid.bounds.size();
@@ -96,12 +96,12 @@ pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) 
     svg + "</svg>"
 }
 
-/// A color as SVG writes it.
+/// A color in SVG notation.
 fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// From meters to pixels of a map.
+/// Transformation from meters to pixels of a map.
 struct Placing<'a> {
     maps: &'a Maps<'a>,
     tall: f64,
@@ -133,7 +133,7 @@ impl Placing<'_> {
     }
 }
 
-/// The cells of one phase, those side by side in a row as one rectangle.
+/// The cells of one phase, adjacent ones of a row merged into one rectangle.
 fn runs(grid: &Grid, invaded: &[bool], wanted: bool) -> String {
     let [columns, rows] = grid.counts;
     let chosen = grid.cells.iter().zip(invaded).filter(|(_, invaded)| **invaded == wanted).map(|((cell, _), _)| *cell);
@@ -141,7 +141,7 @@ fn runs(grid: &Grid, invaded: &[bool], wanted: bool) -> String {
     let mut path = String::new();
     for run in cells.chunk_by(|a, b| a + 1 == *b && a / columns == b / columns) {
         let (x, row, length) = (run[0] % columns, run[0] / columns, run.len());
-        // The first row of cells lies at the bottom.
+        // The first row of cells is at the bottom.
         let _ = write!(path, "M{x} {}h{length}v1h-{length}z", rows - 1 - row);
     }
     path
