@@ -1,13 +1,13 @@
-//! `[sph.measure]`: groups of measures that a case can ask for; each is a table `[sph.measure.NAME]`.
+//! `[sph.measure]`: groups of measures that a case can request; each is a table `[sph.measure.NAME]`.
 
 use crate::input::tables::{Empty, name, tables};
 
-/// Measures that come together, and what a case must have for them.
+/// Measures that come together, and what a case needs for them.
 #[derive(Debug)]
 pub struct Offer {
     /// Names.
     pub names: &'static [&'static str],
-    /// What gives them, such as `[sph.measure.jurin]`.
+    /// What provides them, such as `[sph.measure.jurin]`.
     pub given_by: String,
     /// Whether the case has that.
     pub is_given: bool,
@@ -19,7 +19,7 @@ impl Offer {
     }
 }
 
-/// The set of groups, and its way from a case file and back into one.
+/// The set of groups, and its conversion from and to a case file.
 macro_rules! groups {
     ($(#[doc = $doc:literal] pub $group:ident: [$($name:literal),*],)*) => {
         tables! {
@@ -27,19 +27,19 @@ macro_rules! groups {
             pub(crate) struct RawMeasures { $(#[doc = $doc] pub $group: Empty,)* }
         }
 
-        /// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.
+        /// Named groups of measures a case can request; each is a table `[sph.measure.NAME]`.
         #[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
         pub struct MeasureSet {
             $(#[doc = $doc] pub $group: bool,)*
         }
 
         impl MeasureSet {
-            /// The groups whose tables are there.
+            /// The groups whose tables are present.
             pub(super) fn from_raw(raw: &RawMeasures) -> Self {
                 Self { $($group: raw.$group.is_some(),)* }
             }
 
-            /// The names of the measures of each group, and whether it is asked for.
+            /// The names of the measures of each group, and whether it is requested.
             pub(super) fn offers(&self) -> Vec<Offer> {
                 vec![$(Offer {
                     names: &[$($name),*],
@@ -48,7 +48,7 @@ macro_rules! groups {
                 },)*]
             }
 
-            /// A table for each group that is asked for.
+            /// A table for each requested group.
             pub(super) fn to_raw(&self) -> RawMeasures {
                 RawMeasures { $($group: self.$group.then_some(Empty {}),)* }
             }

@@ -1,4 +1,4 @@
-//! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each axis that they let through.
+//! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each periodic axis.
 
 use super::case_file::Model;
 use super::output::Output;
@@ -7,10 +7,10 @@ use super::sph::Sph;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
-/// Fewest records under each force: the last two tell whether the flow is steady.
+/// Fewest records under each force: the last two show whether the flow is steady.
 const FEWEST_RECORDS: f64 = 2.0;
 
-/// Checks what the measure asks of the model.
+/// Checks the requirements of the measure on the model.
 pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometry: Option<&GeometrySpec>) {
     let Some(sph) = measured(model) else { return };
     if sph.non_wetting.is_some() {
@@ -69,7 +69,7 @@ pub(super) fn no_side_is_driven(checker: &mut Checker, sph: &Sph) -> bool {
     checker.problems.len() == before
 }
 
-/// A force that does not go with the sides.
+/// Refuses a force that is incompatible with the sides.
 fn force(checker: &mut Checker, sph: &Sph) {
     let is_periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
     if is_periodic == [false; 2] {
@@ -99,7 +99,7 @@ fn force(checker: &mut Checker, sph: &Sph) {
     }
 }
 
-/// Checks the records and the end; `end` in s is missing where it was wrong.
+/// Checks the records and the end; `end` in s is missing if it was wrong.
 pub(super) fn records(
     checker: &mut Checker,
     model: Option<&Model>,
@@ -118,7 +118,7 @@ pub(super) fn records(
     few_records(checker, output, end / forces, "under each force");
 }
 
-/// Refuses a series with too few records in a flow of `length` (s), which `named` says where they are.
+/// Refuses a series with too few records in a flow of `length` (s), which the message calls `named`.
 pub(super) fn few_records(checker: &mut Checker, output: &Output, length: f64, named: &str) {
     let most = length / FEWEST_RECORDS;
     if output.series_every > most {
@@ -130,7 +130,7 @@ pub(super) fn few_records(checker: &mut Checker, output: &Output, length: f64, n
     }
 }
 
-/// The direct simulation that asks for its permeability.
+/// The direct simulation whose permeability is requested.
 fn measured(model: Option<&Model>) -> Option<&Sph> {
     match model {
         Some(Model::Sph(sph)) if sph.measure.permeability => Some(sph),

@@ -1,4 +1,4 @@
-//! Domain and solids of a case or of a shape file: which keys go together, and what the shapes themselves say.
+//! Domain and solids of a case or of a shape file: which keys go together, and checks of the shapes.
 
 use std::path::PathBuf;
 
@@ -72,11 +72,11 @@ tables! {
     }
 }
 
-/// Distance of floor and lid.
+/// Depth of a chip (distance between floor and lid).
 pub(crate) const DEPTH: Key =
     Key::positive("a depth in m").help("an etched or molded chip has 20e-6 to 400e-6; leave it out for a plane");
 
-/// The geometry of a shape file, and its depth in m where it has one.
+/// The geometry of a shape file, and its depth in m if it has one.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<(GeometrySpec, Option<f64>)> {
     let raw = raw.in_range(checker, "");
     checker.format(raw.format);
@@ -109,7 +109,7 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
     (checker.problems.len() == before).then_some(spec)
 }
 
-/// The shapes with generators replaced by the discs that they make, each with the index that it is written at.
+/// The shapes with generators expanded to discs, each with its index in the file.
 fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<(usize, ShapeSpec)> {
     let mut plain = Vec::new();
     for (index, shape) in shapes.iter().enumerate() {
@@ -124,7 +124,7 @@ fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<(usize
     plain
 }
 
-/// The path of a problem with the index that its shape is written at.
+/// The path of a problem with the index of its shape in the file.
 fn in_file(path: &str, written: &[usize]) -> String {
     let parts = path.strip_prefix("shapes[").and_then(|rest| rest.split_once(']'));
     match parts.and_then(|(index, rest)| Some((written.get(index.parse::<usize>().ok()?)?, rest))) {
