@@ -1,5 +1,4 @@
-//! The runs of a study: every value of an axis with every value of the others, each with a name that tells them, and
-//! each with its case checked.
+//! The runs of a study: every value of an axis combined with every value of the others, each with a descriptive name and its checked case.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +11,10 @@ use super::{comparison, measured};
 use crate::input::{InputError, Mistake};
 use crate::io::checksum::fnv1a;
 
-/// Longest name of a run; file systems take 255 bytes, and files in the folder are named too.
+/// Longest name of a run; file systems allow 255 bytes, and files in the folder have names, too.
 const LONGEST_NAME: usize = 120;
 
-/// Most mistakes that are told.
+/// Most mistakes that are reported.
 const MOST_MISTAKES: usize = 50;
 
 /// All runs of a study; the last axis varies fastest.
@@ -62,7 +61,7 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
     Run { index: number + 1, name, case, case_origin, parameters, assignments, network }
 }
 
-/// A value as part of the name of a folder: of a path its last part, of an array its numbers.
+/// A value as part of the name of a folder: the last part of a path, the numbers of an array.
 fn label(value: &Value) -> String {
     let text = shown(value);
     let text = if value.is_str() { text.rsplit(['/', '\\']).next().unwrap_or_default() } else { text.as_str() };
@@ -70,7 +69,7 @@ fn label(value: &Value) -> String {
     kept.map(|c| if c.is_ascii_alphanumeric() || "+-.,".contains(c) { c } else { '-' }).collect()
 }
 
-/// The name, cut where it is too long, with a number where it is taken.
+/// The name, truncated if it is too long, with a number if it is taken.
 fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     let name = if name.len() > LONGEST_NAME {
         format!("{}-{:016x}", &name[..LONGEST_NAME], fnv1a(name.as_bytes()))
@@ -79,7 +78,7 @@ fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     };
     let mut candidate = name.clone();
     let mut number = 1;
-    // File systems that do not tell capitals apart must not join two runs.
+    // Runs must stay distinct on case-insensitive file systems.
     while !taken.insert(candidate.to_lowercase()) {
         number += 1;
         candidate = format!("{name}-{number}");
@@ -87,11 +86,11 @@ fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     candidate
 }
 
-/// The mistakes of the cases of many runs, each told once.
+/// The mistakes of the cases of many runs, each reported once.
 #[derive(Default)]
 pub(super) struct Mistakes {
     found: Vec<Mistake>,
-    /// The same mistake of other samples, at the place of a distribution.
+    /// Number of further samples with the same mistake, at the location of a distribution.
     more: Vec<usize>,
 }
 
@@ -133,7 +132,7 @@ impl Mistakes {
 /// All runs with their cases checked.
 ///
 /// # Errors
-/// All mistakes of all cases, each told once; then measures that the runs do not have.
+/// All mistakes of all cases, each reported once; then measures that the runs do not have.
 pub fn plan(study: &Study) -> Result<Vec<PlannedRun>, InputError> {
     let (mut planned, mut mistakes) = (Vec::new(), Mistakes::default());
     for run in runs(study) {

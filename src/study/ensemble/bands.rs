@@ -1,4 +1,4 @@
-//! Bands of capillary pressure over saturation, the distribution of the saturation at breakthrough, and maps of the probability of invasion.
+//! Bands of capillary pressure over saturation, the distribution of the saturation at breakthrough, and invasion probability maps.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::run::ensemble::{Map, SATURATIONS};
 use crate::study::definition::{Sampling, Study};
 use crate::study::table::Table;
 
-/// What the page shows of a group.
+/// The figures of a group on the page.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Figures {
-    /// The values along the other axes; empty where there are none.
+    /// The values along the other axes; empty if there are none.
     pub(crate) name: String,
     /// Diagrams as SVG.
     pub(crate) diagrams: Vec<String>,
@@ -25,7 +25,7 @@ pub(crate) struct Figures {
     pub(crate) map: Option<String>,
 }
 
-/// The measure of which the distribution is drawn.
+/// The measure whose distribution is drawn.
 const AT_BREAKTHROUGH: &str = "saturation-at-breakthrough";
 
 /// Capillary pressures of the samples of a group at a saturation.
@@ -35,18 +35,18 @@ struct Level {
 }
 
 impl Level {
-    /// The quantiles; those that are infinite have no number.
+    /// The quantiles; infinite ones are NaN.
     fn quantiles(&self) -> [f64; 5] {
         SHARES.map(|share| Some(quantile(&self.pressures, share)).filter(|it| it.is_finite()).unwrap_or(f64::NAN))
     }
 
-    /// Share of the samples that have a pressure.
+    /// Fraction of the samples that have a pressure.
     fn reached(&self) -> f64 {
         let finite = self.pressures.iter().filter(|pressure| pressure.is_finite()).count();
         finite as f64 / self.pressures.len() as f64
     }
 
-    /// The mean, where all samples have a pressure.
+    /// The mean, if all samples have a pressure.
     fn mean(&self) -> f64 {
         if self.reached() == 1.0 { mean(&self.pressures) } else { f64::NAN }
     }
@@ -74,10 +74,10 @@ fn levels(kept: &[&Kept], half_cycle: usize) -> Vec<Level> {
     (0..SATURATIONS).map(level).filter(|level| !level.pressures.is_empty()).collect()
 }
 
-/// Writes the files of each group and tells what the page shows of them. Of several groups the names of the files end in their number.
+/// Writes the files of each group and returns the figures for the page. With several groups, file names end in the number of the group.
 ///
 /// # Errors
-/// [`FileError`] with the path and a way out.
+/// [`FileError`] with the path and a remedy.
 pub(crate) fn write(
     study: &Study,
     ensemble: &Ensemble,
@@ -117,10 +117,10 @@ pub(crate) fn write(
     Ok(all)
 }
 
-/// Draws the distributions of the saturation at breakthrough, a line for each group, as `breakthrough.svg`; none where no run has it.
+/// Draws the distributions of the saturation at breakthrough, a line for each group, as `breakthrough.svg`; `None` if no run has it.
 ///
 /// # Errors
-/// [`FileError`] with the path and a way out.
+/// [`FileError`] with the path and a remedy.
 pub(crate) fn distribution(sampling: &Sampling, groups: &[Group], folder: &Path) -> Result<Option<String>, FileError> {
     let trace = |group: &Group| {
         let values = group.values(sampling, AT_BREAKTHROUGH, sampling.count);
@@ -166,7 +166,7 @@ fn table(processes: &[&'static str], halves: &[Vec<Level>]) -> Table {
     Table { heads, rows }
 }
 
-/// The bands of each half cycle: between the outer quantiles, between the inner ones upon it, and the median.
+/// The bands of each half cycle: between the outer quantiles, on top of it between the inner ones, and the median.
 fn diagram(processes: &[&'static str], halves: &[Vec<Level>]) -> Diagram {
     let mut traces = Vec::new();
     for (half, (process, levels)) in processes.iter().zip(halves).enumerate() {
