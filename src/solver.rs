@@ -164,7 +164,7 @@ pub enum SolverError {
     /// A linear or nonlinear solve did not reach its tolerance.
     #[error(
         "{system} did not converge at time {time:.6e} s (step {step}): relative residual {residual:.3e} after {iterations} \
-         iterations, {tolerance:.1e} asked for{}", way_out(*residual)
+         iterations, {tolerance:.1e} asked for{}", advice(*residual)
     )]
     NotConverged {
         /// The system of equations.
@@ -183,7 +183,7 @@ pub enum SolverError {
 }
 
 /// Advice for a solve that stopped at the relative `residual`.
-fn way_out(residual: f64) -> &'static str {
+fn advice(residual: f64) -> &'static str {
     // A solve that fails for any other reason stops far above rounding.
     const ROUNDING: f64 = 1e-9;
     if residual < ROUNDING { "; rounding allows no less, so ask for a larger tolerance" } else { "" }

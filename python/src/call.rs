@@ -14,9 +14,9 @@ use crate::data::Data;
 use crate::fields;
 
 /// Polling interval for signals.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+const POLLING_INTERVAL: Duration = Duration::from_millis(20);
 /// Polls between two calls of the progress function.
-const LOOKS_PER_REPORT: u32 = 5;
+const POLLS_PER_REPORT: u32 = 5;
 
 /// Progress of the work: the fraction done, and a text.
 type Standing = Mutex<Option<(f64, String)>>;
@@ -43,11 +43,11 @@ pub(crate) struct Work<'a> {
 
 impl Work<'_> {
     /// Reports progress.
-    pub(crate) fn tell(&self, share: f64, text: impl FnOnce() -> String) {
+    pub(crate) fn tell(&self, fraction: f64, text: impl FnOnce() -> String) {
         let mut standing = self.standing.lock().unwrap_or_else(PoisonError::into_inner);
         // The text is only made if somebody listens.
         if standing.is_none() {
-            *standing = Some((share, text()));
+            *standing = Some((fraction, text()));
         }
     }
 
@@ -94,8 +94,8 @@ fn cores() -> usize {
 /// Whatever a signal or the progress function raises, after the work has stopped.
 pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<'_>) -> T + Send) -> PyResult<T> {
     let Call { threads, progress, token } = call;
-    let asked = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|threads| *threads > 0);
-    let threads = threads.or_else(asked).map_or_else(cores, |threads: usize| threads.min(cores()));
+    let requested = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|threads| *threads > 0);
+    let threads = threads.or_else(requested).map_or_else(cores, |threads: usize| threads.min(cores()));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(format!("cannot start {threads} threads: {error}")))?;
     let (standing, registered) = (Standing::default(), Registered::new(token));
@@ -109,18 +109,18 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
                 // The receiver lives as long as this scope.
                 let _ = done.send(work(work_of));
             });
-            let (mut raised, mut looks) = (None, 0);
+            let (mut raised, mut polls) = (None, 0);
             loop {
-                match is_done.recv_timeout(BETWEEN_LOOKS) {
+                match is_done.recv_timeout(POLLING_INTERVAL) {
                     Ok(found) => return (Some(found), raised),
                     // It panicked: the scope propagates that.
                     Err(mpsc::RecvTimeoutError::Disconnected) => return (None, raised),
                     Err(mpsc::RecvTimeoutError::Timeout) => {}
                 }
-                looks += 1;
-                let is_due = looks % LOOKS_PER_REPORT == 0;
+                polls += 1;
+                let is_due = polls % POLLS_PER_REPORT == 0;
                 if raised.is_none()
-                    && let Err(error) = Python::attach(|py| look(py, progress.as_ref().filter(|_| is_due), &standing))
+                    && let Err(error) = Python::attach(|py| poll(py, progress.as_ref().filter(|_| is_due), &standing))
                 {
                     registered.0.store(true, Ordering::Relaxed);
                     raised = Some(error);
@@ -138,12 +138,12 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
 }
 
 /// Lets Python handle signals, and reports progress.
-fn look(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
+fn poll(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
     py.check_signals()?;
     if let Some(progress) = progress {
-        let told = standing.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some((share, text)) = told {
-            progress.call1(py, (share, text))?;
+        let latest = standing.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some((fraction, text)) = latest {
+            progress.call1(py, (fraction, text))?;
         }
     }
     Ok(())

@@ -72,8 +72,8 @@ fn array<'py, T: Copy, const N: usize>(
     bytes_of: impl Fn(T) -> [u8; N],
 ) -> PyResult<Bound<'py, PyAny>> {
     let bytes = PyByteArray::new_with(py, values.len() * N, |bytes| {
-        for (place, value) in bytes.chunks_exact_mut(N).zip(values) {
-            place.copy_from_slice(&bytes_of(*value));
+        for (slot, value) in bytes.chunks_exact_mut(N).zip(values) {
+            slot.copy_from_slice(&bytes_of(*value));
         }
         Ok(())
     })?;

@@ -39,9 +39,9 @@ pub(crate) fn all(solver: &dyn Solver) -> Data {
 
 /// The rows of the series, column by column.
 pub(crate) fn series(series: &Series) -> Data {
-    let column = |place: usize| series.rows.iter().map(|row| row[place]).collect();
+    let column = |index: usize| series.rows.iter().map(|row| row[index]).collect();
     let columns = series.columns.iter().enumerate();
-    Data::Group(columns.map(|(place, name)| (name.clone(), Data::Floats(column(place), 1))).collect())
+    Data::Group(columns.map(|(index, name)| (name.clone(), Data::Floats(column(index), 1))).collect())
 }
 
 fn points(points: &[Vec2]) -> Data {
@@ -112,7 +112,7 @@ fn table(table: &Table) -> Data {
         Cells::Numbers(values) => Data::Floats(values.iter().map(number).collect(), 1),
         Cells::Counts(values) => Data::Integers(values.iter().map(|&value| value as i64).collect(), 1),
         Cells::Places(values) => {
-            Data::Integers(values.iter().map(|value| value.map_or(-1, |place| place as i64)).collect(), 1)
+            Data::Integers(values.iter().map(|value| value.map_or(-1, |index| index as i64)).collect(), 1)
         }
         Cells::Flags(values) => Data::Flags(values.clone()),
         Cells::Words(values) => Data::Words(values.clone()),

@@ -107,7 +107,7 @@ fn check(py: Python<'_>, given: Given, threads: Option<usize>, progress: Option<
     let found = call(py, how, |work| -> Result<String, Refused> {
         let source = given.source()?;
         let mut solver = built(work, &source, false)?;
-        let tried = &mut |share| work.tell(share, || "first steps are tried".to_owned());
+        let tried = &mut |fraction| work.tell(fraction, || "first steps are tried".to_owned());
         let checked = checked::check(&source.case, solver.as_mut(), tried);
         let checked = checked.map_err(|error| Refused::Solver(error.to_string()))?;
         checked.json().map_err(|error| Refused::Solver(error.to_string()))

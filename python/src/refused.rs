@@ -32,7 +32,7 @@ impl From<InputError> for Refused {
 }
 
 /// A mistake as Python shows it.
-struct Told {
+struct PythonMistake {
     file: Option<String>,
     place: Option<(usize, usize)>,
     key: Option<String>,
@@ -40,7 +40,7 @@ struct Told {
     help: String,
 }
 
-impl Told {
+impl PythonMistake {
     /// A mistake in a file, or in a dict that was written as `text`.
     fn of(mistake: &Mistake, text: Option<&str>) -> Self {
         let (message, help) = (mistake.message.clone(), mistake.help_text().to_owned());
@@ -56,25 +56,25 @@ impl Told {
 
     /// As the program prints it: the location, the message, and below it the remedy.
     fn text(&self) -> String {
-        let place = match (&self.file, self.place, &self.key) {
+        let location = match (&self.file, self.place, &self.key) {
             (Some(file), Some((line, column)), _) => format!("{file}:{line}:{column}: "),
             (Some(file), None, _) => format!("{file}: "),
             (None, _, Some(key)) => format!("{key}: "),
             (None, _, None) => String::new(),
         };
         let help = if self.help.is_empty() { String::new() } else { format!("\n  help: {}", self.help) };
-        format!("{place}{}{help}", self.message)
+        format!("{location}{}{help}", self.message)
     }
 
     fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-        let told = PyDict::new(py);
-        told.set_item("file", self.file)?;
-        told.set_item("line", self.place.map(|place| place.0))?;
-        told.set_item("column", self.place.map(|place| place.1))?;
-        told.set_item("key", self.key)?;
-        told.set_item("message", self.message)?;
-        told.set_item("help", self.help)?;
-        Ok(told)
+        let dict = PyDict::new(py);
+        dict.set_item("file", self.file)?;
+        dict.set_item("line", self.place.map(|location| location.0))?;
+        dict.set_item("column", self.place.map(|location| location.1))?;
+        dict.set_item("key", self.key)?;
+        dict.set_item("message", self.message)?;
+        dict.set_item("help", self.help)?;
+        Ok(dict)
     }
 }
 
@@ -87,19 +87,19 @@ impl Refused {
         let raised = match self {
             Self::Case(Refusal::Input(error)) => case_error(py, of_input(&error, None)),
             Self::Case(Refusal::Options(problems)) => {
-                let told = |problem: &meniscus::input::Problem| Told {
+                let shown = |problem: &meniscus::input::Problem| PythonMistake {
                     file: None,
                     place: None,
                     key: Some(parameter(&problem.path)).filter(|key| !key.is_empty()),
                     message: problem.message.clone(),
                     help: problem.help.clone(),
                 };
-                case_error(py, problems.iter().map(told).collect())
+                case_error(py, problems.iter().map(shown).collect())
             }
             Self::Case(Refusal::Setup(text)) => {
                 let (message, help) = text.split_once("; ").unwrap_or((&text, ""));
                 let (message, help) = (message.to_owned(), help.to_owned());
-                case_error(py, vec![Told { file: None, place: None, key: None, message, help }])
+                case_error(py, vec![PythonMistake { file: None, place: None, key: None, message, help }])
             }
             Self::Dict(error, text) => case_error(py, of_input(&error, Some(&text))),
             Self::Folder(text) => class(py, "FolderError").and_then(|class| class.call1((text,))),
@@ -110,17 +110,17 @@ impl Refused {
     }
 }
 
-fn of_input(error: &InputError, text: Option<&str>) -> Vec<Told> {
-    error.mistakes.iter().map(|mistake| Told::of(mistake, text)).collect()
+fn of_input(error: &InputError, text: Option<&str>) -> Vec<PythonMistake> {
+    error.mistakes.iter().map(|mistake| PythonMistake::of(mistake, text)).collect()
 }
 
 fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("meniscus.errors")?.getattr(name)
 }
 
-fn case_error(py: Python<'_>, told: Vec<Told>) -> PyResult<Bound<'_, PyAny>> {
-    let text = told.iter().map(Told::text).collect::<Vec<_>>().join("\n");
-    let mistakes = told.into_iter().map(|one| one.into_python(py)).collect::<PyResult<Vec<_>>>()?;
+fn case_error(py: Python<'_>, shown: Vec<PythonMistake>) -> PyResult<Bound<'_, PyAny>> {
+    let text = shown.iter().map(PythonMistake::text).collect::<Vec<_>>().join("\n");
+    let mistakes = shown.into_iter().map(|one| one.into_python(py)).collect::<PyResult<Vec<_>>>()?;
     class(py, "CaseError")?.call1((text, mistakes))
 }
 
@@ -130,19 +130,19 @@ fn key_at(text: &str, line: usize) -> Option<String> {
     let header = before.iter().rfind(|line| line.starts_with('['));
     let key = before.last().filter(|line| !line.starts_with('[')).and_then(|line| line.split_once(" = "));
     let mut path = String::new();
-    let mut place = String::new();
+    let mut indexed = String::new();
     for part in header.map_or("", |line| line.trim_matches(['[', ']'])).split('.').filter(|part| !part.is_empty()) {
         let dot = if path.is_empty() { "" } else { "." };
         path = format!("{path}{dot}{part}");
-        place = format!("{place}{dot}{part}");
+        indexed = format!("{indexed}{dot}{part}");
         // An element of an array has a header of its own.
         let count = before.iter().filter(|line| **line == format!("[[{path}]]")).count();
         if let Some(last) = count.checked_sub(1) {
-            place = format!("{place}[{last}]");
+            indexed = format!("{indexed}[{last}]");
         }
     }
     let parts: Vec<String> =
-        Some(place).filter(|it| !it.is_empty()).into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
+        Some(indexed).filter(|it| !it.is_empty()).into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
     (!parts.is_empty()).then(|| parts.join("."))
 }
 

@@ -31,11 +31,11 @@ pub(crate) fn blobs(
     period: [Option<f64>; 2],
 ) -> Vec<Blob> {
     let chosen: Vec<usize> = (0..points.len()).filter(|&i| member[i]).collect();
-    let places: Vec<Vec2> = chosen.iter().map(|&i| points[i]).collect();
-    let cells = Cells::new(&places, link, period);
-    let mut parent: Vec<usize> = (0..places.len()).collect();
-    for (a, &place) in places.iter().enumerate() {
-        cells.for_each_near(place, link, |b, _| {
+    let positions: Vec<Vec2> = chosen.iter().map(|&i| points[i]).collect();
+    let cells = Cells::new(&positions, link, period);
+    let mut parent: Vec<usize> = (0..positions.len()).collect();
+    for (a, &position) in positions.iter().enumerate() {
+        cells.for_each_near(position, link, |b, _| {
             if b < a {
                 let (ra, rb) = (root(&mut parent, a), root(&mut parent, b));
                 // The lower index becomes the root, so the result depends on the particles alone.
@@ -43,8 +43,8 @@ pub(crate) fn blobs(
             }
         });
     }
-    let mut of_root: Vec<Option<Blob>> = vec![None; places.len()];
-    for i in 0..places.len() {
+    let mut of_root: Vec<Option<Blob>> = vec![None; positions.len()];
+    for i in 0..positions.len() {
         let r = root(&mut parent, i);
         let blob = of_root[r].get_or_insert(Blob { count: 0, area: 0.0, first: chosen[i] });
         blob.count += 1;

@@ -36,8 +36,8 @@ pub(crate) fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f
         around.fold(0, |found, square| found | sides[square]) == HIGH | LOW
     };
     let both: Vec<bool> = (0..sides.len()).map(both).collect();
-    let place = |node: usize| lattice.position(node % lattice.counts[0], node / lattice.counts[0]);
-    (0..lattice.len()).filter(|&node| both[square(place(node))]).collect()
+    let position = |node: usize| lattice.position(node % lattice.counts[0], node / lattice.counts[0]);
+    (0..lattice.len()).filter(|&node| both[square(position(node))]).collect()
 }
 
 #[cfg(test)]

@@ -92,18 +92,18 @@ impl CapillaryPressure {
 impl CapillaryPressure {
     /// The same where interfaces meet walls at the contact `angle` (degrees), measured through the wetting phase.
     pub(crate) fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
-        let share = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
-        self.standard_error.hypot(error_of_share(share, self.value, tension, h))
+        let factor = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
+        self.standard_error.hypot(error_by_factor(factor, self.value, tension, h))
     }
 }
 
 /// The discretization error in Pa of a capillary `pressure` (Pa).
 pub(crate) fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
-    error_of_share(PRESSURE_RESOLUTION, pressure, tension, h)
+    error_by_factor(PRESSURE_RESOLUTION, pressure, tension, h)
 }
 
-fn error_of_share(share: f64, pressure: f64, tension: f64, h: f64) -> f64 {
-    pressure * (share * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
+fn error_by_factor(factor: f64, pressure: f64, tension: f64, h: f64) -> f64 {
+    pressure * (factor * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
 }
 
 /// Width of the band left out along the interface, in smoothing lengths.

@@ -13,20 +13,20 @@ pub(crate) fn deviation(values: &[f64]) -> f64 {
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// The quantile at `share`, 0 to 1, of ascending values, by linear interpolation (Hyndman and Fan 1996, definition 7). Values may be infinite; between an
+/// The quantile at `probability`, 0 to 1, of ascending values, by linear interpolation (Hyndman and Fan 1996, definition 7). Values may be infinite; between an
 /// infinite and another value the lower one counts.
-pub(crate) fn quantile(ascending: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
     let Some(last) = ascending.len().checked_sub(1) else { return f64::NAN };
-    let place = share.clamp(0.0, 1.0) * last as f64;
-    let below = place.floor() as usize;
+    let position = probability.clamp(0.0, 1.0) * last as f64;
+    let below = position.floor() as usize;
     let (low, high) = (ascending[below], ascending[(below + 1).min(last)]);
-    let rest = place - below as f64;
-    if rest == 0.0 || low == high || low.is_infinite() {
+    let remainder = position - below as f64;
+    if remainder == 0.0 || low == high || low.is_infinite() {
         low
     } else if high.is_infinite() {
         high
     } else {
-        low + rest * (high - low)
+        low + remainder * (high - low)
     }
 }
 

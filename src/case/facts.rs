@@ -36,14 +36,14 @@ pub fn check_against(case: &Case, facts: &Facts) -> Vec<Problem> {
 }
 
 fn throat(sph: &Sph, facts: &Facts) -> Option<Problem> {
-    let (width, place) = facts.throat?;
+    let (width, center) = facts.throat?;
     let count = width / sph.spacing;
     (count < FEWEST_IN_THROAT).then(|| Problem {
         path: "sph.spacing".to_owned(),
         message: format!(
             "the narrowest throat is {width:.3e} m wide at ({:.3e}, {:.3e}) m and has {count:.1} particles, \
              at least {FEWEST_IN_THROAT} are needed",
-            place.x, place.y
+            center.x, center.y
         ),
         help: format!("a spacing of {:.2e} m or less would do", width / FEWEST_IN_THROAT),
     })

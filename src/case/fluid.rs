@@ -13,7 +13,7 @@ tables! {
         pub non_wetting: RawFluid,
     }
 
-    /// A Newtonian fluid, by name or by its properties; a property given beside a name wins.
+    /// A Newtonian fluid, by name or by its properties; a property given in addition to a name overrides that of the preset.
     pub struct RawFluid {
         /// Fluid with known properties.
         pub preset: Preset,

@@ -147,11 +147,11 @@ pub(super) fn from_network(
 }
 
 /// Refuses further keys if one key defines the phases; `others` are keys, and whether they are given.
-fn refuse_beside(checker: &mut Checker, says_it: &str, others: &[(&str, bool)]) {
+fn refuse_beside(checker: &mut Checker, deciding: &str, others: &[(&str, bool)]) {
     for (key, _) in others.iter().filter(|(_, given)| *given) {
         checker.refuse(
             format!("sph.initial.{key}"),
-            format!("`{says_it}` says which phase is where, and `{key}` is given too"),
+            format!("`{deciding}` says which phase is where, and `{key}` is given too"),
             "keep one of them",
         );
     }

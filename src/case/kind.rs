@@ -51,15 +51,15 @@ mod tests {
 
     #[test]
     fn a_file_of_another_kind_is_told_as_such() {
-        let told = |problem: Option<Problem>| problem.map(|problem| problem.message);
+        let message = |problem: Option<Problem>| problem.map(|problem| problem.message);
         let (shapes, case) = ("min = [0, 0]\nshapes = []\n", "format = 1\n[sph]\nspacing = 1\n");
         let study = "format = 1\ncase = 'a.toml'\n[[axis]]\nkey = 'sph.spacing'\n";
-        assert!(told(other_than_a_case(shapes)).unwrap().contains("a shape file"));
-        assert!(told(other_than_a_case(study)).unwrap().contains("a study"));
-        assert!(told(other_than_a_study(case)).unwrap().contains("a case"));
-        assert_eq!((told(other_than_a_case(case)), told(other_than_a_study(study))), (None, None));
+        assert!(message(other_than_a_case(shapes)).unwrap().contains("a shape file"));
+        assert!(message(other_than_a_case(study)).unwrap().contains("a study"));
+        assert!(message(other_than_a_study(case)).unwrap().contains("a case"));
+        assert_eq!((message(other_than_a_case(case)), message(other_than_a_study(study))), (None, None));
         // Ordinary mistakes are reported elsewhere.
-        assert_eq!((told(other_than_a_case("titel = 1")), told(other_than_a_study("titel = 1"))), (None, None));
+        assert_eq!((message(other_than_a_case("titel = 1")), message(other_than_a_study("titel = 1"))), (None, None));
     }
 
     #[test]

@@ -87,13 +87,13 @@ groups! {
     pub cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
     /// Permeability tensor of a periodic cell.
     pub permeability: [],
-    /// Relative permeability of both phases beside a frozen interface.
+    /// Relative permeability of both phases with a frozen interface.
     pub relative_permeability: ["permeability-m2", "relative-permeability-wetting", "relative-permeability-non-wetting", "saturation", "unsteady-share"],
     /// Capillary pressure of a meniscus in the throat between two bodies.
     pub throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.
     pub jurin: ["rise-difference-m", "rise-ratio"],
-    /// Angles, speeds and forces of a drop that moves or is held on a wall.
+    /// Angles, speeds and forces of a drop that moves or is pinned on a wall.
     pub moving_drop: ["advancing-angle-deg", "receding-angle-deg", "advancing-speed-m-per-s", "receding-speed-m-per-s", "advancing-way-m-per-s", "receding-way-m-per-s", "advancing-capillary-number", "receding-capillary-number", "advancing-wall-angle-deg", "receding-wall-angle-deg", "adhesion-tension-N-per-m", "retention-N-per-m", "wall-retention-N-per-m", "stream-drag-N-per-m", "net-drag-N-per-m", "drag-over-retention", "drag-over-wall-retention", "momentum-balance-error", "detachment-time-s"],
     /// Exponent of the base width of a spreading drop.
     pub spreading: ["spreading-exponent"],

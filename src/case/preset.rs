@@ -74,11 +74,11 @@ impl Preset {
     pub fn at(self, celsius: f64) -> Properties {
         const PER_MILLI: f64 = 1.0e3;
         let (cold, warm) = self.rows();
-        let share = ((celsius - COLD) / (WARM - COLD)).clamp(0.0, 1.0);
-        let between = |a: f64, b: f64| (1.0 - share) * a + share * b;
+        let fraction = ((celsius - COLD) / (WARM - COLD)).clamp(0.0, 1.0);
+        let between = |a: f64, b: f64| (1.0 - fraction) * a + fraction * b;
         let tension = match (cold.2, warm.2) {
             (Some(a), Some(b)) => Some(between(a, b) / PER_MILLI),
-            (None, Some(b)) if share >= 1.0 => Some(b / PER_MILLI),
+            (None, Some(b)) if fraction >= 1.0 => Some(b / PER_MILLI),
             _ => None,
         };
         Properties { density: between(cold.0, warm.0), viscosity: between(cold.1, warm.1) / PER_MILLI, tension }

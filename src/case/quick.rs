@@ -21,9 +21,9 @@ pub(crate) fn quick(
     let mut found = network(&mut checker, &raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
     depth::depth(&mut checker, depth, found.as_mut(), Some(&geometry), false);
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref().and_then(Model::sides));
-    let whole = RawCase { network: Some(raw), ..RawCase::default() };
-    let end = records::end(&mut checker, &whole, found.as_ref());
-    let mut output = records::output(&mut checker, &whole, end, None);
+    let raw_case = RawCase { network: Some(raw), ..RawCase::default() };
+    let end = records::end(&mut checker, &raw_case, found.as_ref());
+    let mut output = records::output(&mut checker, &raw_case, end, None);
     let (Some(model), Some(end), true) = (found, end, checker.problems.is_empty()) else {
         return Err(checker.problems);
     };

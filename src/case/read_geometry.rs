@@ -162,9 +162,9 @@ fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, N
 const MOST_PARTS: usize = 50;
 
 /// A mistake for each refused part of a file.
-fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (String, String)) -> InputError {
+fn each_part<T>(name: &str, path: &Path, parts: &[T], describe: impl Fn(&T) -> (String, String)) -> InputError {
     let one = |part: &T| {
-        let (message, help) = told(part);
+        let (message, help) = describe(part);
         Mistake::of_file(name, format!("{}, {message}", path.display()), &help)
     };
     let mut mistakes: Vec<Mistake> = parts.iter().take(MOST_PARTS).map(one).collect();

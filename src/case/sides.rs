@@ -105,10 +105,10 @@ pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spac
         );
     }
     // By default, a contact line slips by a spacing, so that it does not run over the adjacent particles.
-    let unsaid = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
+    let default = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
     Walls {
         slip_length: raw.slip_length.unwrap_or_default(),
-        line_slip_length: raw.line_slip_length.or(raw.slip_length).unwrap_or(unsaid),
+        line_slip_length: raw.line_slip_length.or(raw.slip_length).unwrap_or(default),
     }
 }
 

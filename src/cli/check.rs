@@ -44,7 +44,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
                 say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s)))
             }
         }
-        advice.iter().for_each(tell_advice);
+        advice.iter().for_each(print_advice);
         warnings.iter().for_each(say_warning);
         return Ok(DONE);
     }
@@ -92,7 +92,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
              the slip length of the wall in nanometers; states of rest do not depend on it"
         ));
     }
-    advice.iter().for_each(tell_advice);
+    advice.iter().for_each(print_advice);
     warnings.iter().for_each(say_warning);
     Ok(DONE)
 }
@@ -102,7 +102,7 @@ fn say_warning(warning: &String) {
 }
 
 /// Reports the cost of both models, and which of them is applicable.
-fn tell_advice(advice: &Advice) {
+fn print_advice(advice: &Advice) {
     let Advice { pores, throats, network_s, .. } = advice;
     say(format_args!("  network     {pores} pores and {throats} throats, found in {}", duration(*network_s)));
     if let Some([narrowest, median]) = advice.widths_over_depth {
@@ -142,7 +142,7 @@ fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
         tell(format_args!("the first steps of {unknowns} particles are tried: five, or as many as ten seconds allow"));
     }
     let mut display = ProgressDisplay::new();
-    let found = checked::check(case, solver, &mut |share| display.tried(share));
+    let found = checked::check(case, solver, &mut |fraction| display.tried(fraction));
     display.finish();
     found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
 }

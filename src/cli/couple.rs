@@ -30,7 +30,7 @@ pub(crate) struct CoupleArguments {
     #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
     pub(crate) event: Wanted,
     /// Excess over the pressure of the event, relative to it; with a depth, relative to the part due to the in-plane curvature
-    #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = share)]
+    #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = fraction)]
     pub(crate) excess: f64,
     /// Output folder, new or empty; if not given: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
@@ -51,9 +51,9 @@ fn wanted(text: &str) -> Result<Wanted, String> {
     }
 }
 
-fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse().ok().filter(|share| (0.0..1.0).contains(share) && *share > 0.0);
-    share.ok_or_else(|| "expected a number above 0 and below 1".to_owned())
+fn fraction(text: &str) -> Result<f64, String> {
+    let fraction = text.parse().ok().filter(|fraction| (0.0..1.0).contains(fraction) && *fraction > 0.0);
+    fraction.ok_or_else(|| "expected a number above 0 and below 1".to_owned())
 }
 
 /// Results, as written to `couple.json`.
@@ -65,7 +65,7 @@ struct Coupled {
     driving_pressure_pa: f64,
     /// Wetting saturation at the end of the direct simulation, counted by whole elements.
     saturation_by_direct_simulation: f64,
-    /// Fraction of the elements that hold the same phase after the avalanche in network and direct simulation.
+    /// Fraction of the elements with the same phase after the avalanche in network and direct simulation.
     same_elements: Option<f64>,
 }
 
@@ -75,17 +75,17 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
     let direction = if avalanche.invading == crate::case::FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.in_plane_pa;
+    let beyond = |fraction: f64| avalanche.pressure_pa + direction * fraction * avalanche.in_plane_pa;
     let driving = beyond(arguments.excess);
     let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");
     // Both cases are checked before anything runs.
-    let rest = source::load_case(Some(&arguments.network), &[stop(avalanche.rest_pressure_pa)])?;
-    let start = state_at_end(&rest.case).map_err(|error| failure(&rest, &error))?;
+    let at_rest = source::load_case(Some(&arguments.network), &[stop(avalanche.rest_pressure_pa)])?;
+    let start = state_at_end(&at_rest.case).map_err(|error| failure(&at_rest, &error))?;
     let direct = source::load_started(&arguments.direct, &[], &start)?;
     if direct.case.depth != network.case.depth {
-        let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
+        let text = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
         let message =
-            format!("the network has {}, and the direct simulation {}", told(&network.case), told(&direct.case));
+            format!("the network has {}, and the direct simulation {}", text(&network.case), text(&direct.case));
         return Err(direct.refused_at("geometry.depth", &message, "give both the same").into());
     }
     let inlet = inlet_pressure(&direct, avalanche.inlet, direction * driving)?;
@@ -181,7 +181,7 @@ fn read(folder: &Path) -> Result<NetworkState, Failure> {
     NetworkState::read(&text).map_err(|error| Failure::new(BUG, &format!("{}: {error}", path.display())))
 }
 
-/// Fraction of the elements that hold the same phase in both.
+/// Fraction of the elements with the same phase in both.
 fn same_elements(one: &NetworkState, other: &NetworkState) -> Option<f64> {
     let count = one.elements.len();
     let same = one.elements.iter().zip(&other.elements).filter(|(a, b)| a.phase == b.phase).count();

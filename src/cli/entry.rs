@@ -14,12 +14,15 @@ use super::{check, compare, couple, geometry, list, man, network, new, output, r
 /// Reads the command line and executes it.
 pub fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
-        let place = panic.location().map_or(String::new(), |place| format!(" ({}:{})", place.file(), place.line()));
+        let location =
+            panic.location().map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
         let payload = panic.payload();
         let what =
             payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let what = what.unwrap_or("no message");
-        complain(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
+        complain(format_args!(
+            "bug in meniscus: {what}{location}. Please report this line together with the case file."
+        ));
         std::process::exit(i32::from(BUG));
     }));
     let code = match Arguments::try_parse() {
@@ -34,12 +37,12 @@ pub fn main() -> ExitCode {
             })
         }
         // Help and version also arrive here.
-        Err(told) => {
-            let printed = told.print();
-            if !told.use_stderr() {
+        Err(error) => {
+            let printed = error.print();
+            if !error.use_stderr() {
                 output::printed(printed.and_then(|()| std::io::stdout().flush()));
             }
-            if told.use_stderr() { USAGE } else { DONE }
+            if error.use_stderr() { USAGE } else { DONE }
         }
     };
     ExitCode::from(all_printed(code))

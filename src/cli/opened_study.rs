@@ -92,7 +92,7 @@ pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
 pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
-    tell_judgments(written);
+    print_judgments(written);
     for convergence in &written.convergences {
         let order = convergence.order_text();
         let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
@@ -129,7 +129,7 @@ pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
     }
 }
 
-fn tell_judgments(written: &StudyReport) {
+fn print_judgments(written: &StudyReport) {
     let count = |verdict| written.judgments.iter().filter(|judgment| judgment.verdict == verdict).count();
     if written.judgments.is_empty() {
         return;

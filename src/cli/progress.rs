@@ -32,18 +32,18 @@ impl ProgressDisplay {
     }
 
     /// Shows the progress of packing particles before time zero.
-    pub(crate) fn packed(&mut self, share: f64) {
+    pub(crate) fn packed(&mut self, fraction: f64) {
         const TEXT: &str = "particles are packed to walls and interfaces";
-        self.show(share, || TEXT.to_owned());
+        self.show(fraction, || TEXT.to_owned());
     }
 
     /// Shows the progress of the trial steps.
-    pub(crate) fn tried(&mut self, share: f64) {
-        self.show(share, || "first steps are tried".to_owned());
+    pub(crate) fn tried(&mut self, fraction: f64) {
+        self.show(fraction, || "first steps are tried".to_owned());
     }
 
     /// Shows a fraction of the work with a text, if enough time has passed since the last update.
-    fn show(&mut self, share: f64, text: impl FnOnce() -> String) {
+    fn show(&mut self, fraction: f64, text: impl FnOnce() -> String) {
         let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };
         if self.shown.elapsed() < pause {
             return;
@@ -51,10 +51,10 @@ impl ProgressDisplay {
         self.shown = Instant::now();
         match &self.bar {
             Some(bar) => {
-                bar.set_position((LENGTH as f64 * share) as u64);
+                bar.set_position((LENGTH as f64 * fraction) as u64);
                 bar.set_message(text());
             }
-            None => tell(format_args!("{:3.0} %  {}", 100.0 * share, text())),
+            None => tell(format_args!("{:3.0} %  {}", 100.0 * fraction, text())),
         }
     }
 

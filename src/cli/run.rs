@@ -46,8 +46,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
 }
 
 /// The output folder: the given one, or one named after the case.
-pub(super) fn new_folder(asked_for: Option<&Path>, name: &str, mode: Mode) -> PathBuf {
-    asked_for.map_or_else(
+pub(super) fn new_folder(given: Option<&Path>, name: &str, mode: Mode) -> PathBuf {
+    given.map_or_else(
         || {
             let base = Path::new("out").join(name);
             if mode == Mode::Resume { folder::last_used(&base) } else { folder::next_free(&base) }
@@ -68,7 +68,7 @@ pub(super) fn finish(
         let mut solver = built(source, mode)?;
         tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
         if mode == Mode::New {
-            tell_warnings(&source.case, solver.as_ref());
+            print_warnings(&source.case, solver.as_ref());
         }
         let flag = interrupt::flag();
         let mut display = ProgressDisplay::new();
@@ -87,7 +87,7 @@ pub(super) fn finish(
 pub(super) fn built(source: &Source, mode: Mode) -> Result<Box<dyn Solver>, Failure> {
     let mut display = ProgressDisplay::new();
     let solver = match mode {
-        Mode::New => setup::build_watched(&source.case, &mut |share| display.packed(share)),
+        Mode::New => setup::build_watched(&source.case, &mut |fraction| display.packed(fraction)),
         Mode::Resume => setup::build_to_resume(&source.case),
     };
     display.finish();
@@ -95,7 +95,7 @@ pub(super) fn built(source: &Source, mode: Mode) -> Result<Box<dyn Solver>, Fail
 }
 
 /// Prints warnings that a reader should have before a long run rather than after it.
-fn tell_warnings(case: &Case, solver: &dyn Solver) {
+fn print_warnings(case: &Case, solver: &dyn Solver) {
     for warning in setup::warnings(case, solver, &Series::default()) {
         tell(format_args!("  WARNING     {warning}"));
     }

@@ -52,24 +52,24 @@ impl From<Refusal> for Failure {
 }
 
 /// A case, after printing its notes.
-fn told(source: Source) -> Source {
+fn with_notes_printed(source: Source) -> Source {
     source.notes.iter().for_each(tell);
     source
 }
 
 /// Loads a case file, or the built-in case if `None`, and checks it against its geometry.
 pub(crate) fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
-    source::load_case(path, overrides).map(told).map_err(Failure::input)
+    source::load_case(path, overrides).map(with_notes_printed).map_err(Failure::input)
 }
 
 /// The network of a drawing or of a case file.
 pub(crate) fn load_network(path: &Path, import: &Options, options: &NetworkOptions) -> Result<Source, Failure> {
-    Ok(told(source::load_network(path, import, options)?))
+    Ok(with_notes_printed(source::load_network(path, import, options)?))
 }
 
 /// Loads a case file as if the file of its initial state contained `state`.
 pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, Failure> {
-    source::load_started(path, overrides, state).map(told).map_err(Failure::input)
+    source::load_started(path, overrides, state).map(with_notes_printed).map_err(Failure::input)
 }
 
 /// Loads a shape file.
@@ -139,7 +139,7 @@ pub(crate) fn load_shapes(
             (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec, depth)
         }
     };
-    let sides = (is_case || periodic.is_some()).then(|| told_sides(&geometry));
+    let sides = (is_case || periodic.is_some()).then(|| kinds_of_sides(&geometry));
     at("measuring porosity, walls and throats");
     let measures = measures(&geometry, depth);
     at("drawing the outline");
@@ -151,15 +151,15 @@ pub(crate) fn load_shapes(
 }
 
 /// The kind of each side, as far as the geometry has it.
-fn told_sides(geometry: &Geometry) -> String {
+fn kinds_of_sides(geometry: &Geometry) -> String {
     let [x, y] = geometry.periodic();
     let names = ["left", "right", "bottom", "top"].into_iter().zip([x, x, y, y]).zip(geometry.wall_sides());
-    let told = names.map(|((name, is_periodic), is_wall)| match (is_periodic, is_wall) {
+    let kinds = names.map(|((name, is_periodic), is_wall)| match (is_periodic, is_wall) {
         (true, _) => format!("{name} periodic"),
         (_, true) => format!("{name} wall"),
         _ => format!("{name} open"),
     });
-    told.collect::<Vec<_>>().join(", ")
+    kinds.collect::<Vec<_>>().join(", ")
 }
 
 fn measures(geometry: &Geometry, depth: Option<f64>) -> Vec<Measure> {

@@ -16,7 +16,7 @@ const SILENT: Duration = Duration::from_secs(2);
 /// Time between lines of the same stage without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(15);
 /// Polling interval.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(200);
+const POLLING_INTERVAL: Duration = Duration::from_millis(200);
 
 /// The current stage: its number, from 1, its name, and whether the command is done.
 #[derive(Default)]
@@ -50,7 +50,7 @@ impl Stages {
         let shared = Arc::clone(&now);
         let teller = std::thread::spawn(move || {
             let (begun, mut pause) = (Instant::now(), silent);
-            let (mut told, mut told_at) = (0, begun);
+            let (mut shown, mut shown_at) = (0, begun);
             let mut state = shared.0.lock().unwrap_or_else(PoisonError::into_inner);
             while !state.is_done {
                 let waited = shared.1.wait_timeout_while(state, pause, |now| !now.is_done);
@@ -58,10 +58,10 @@ impl Stages {
                 if state.is_done {
                     break;
                 }
-                pause = BETWEEN_LOOKS;
-                let is_new = state.number != told || told_at.elapsed() >= BETWEEN_LINES;
+                pause = POLLING_INTERVAL;
+                let is_new = state.number != shown || shown_at.elapsed() >= BETWEEN_LINES;
                 if is_new {
-                    (told, told_at) = (state.number, Instant::now());
+                    (shown, shown_at) = (state.number, Instant::now());
                 }
                 let seconds = begun.elapsed().as_secs_f64();
                 show(&format!("{} of {count}: {}, {}", state.number, state.name, duration(seconds)), is_new);
@@ -123,10 +123,10 @@ mod tests {
 
     #[test]
     fn a_command_that_takes_long_tells_its_stage_once() {
-        let told = lines(Duration::from_millis(1));
+        let shown = lines(Duration::from_millis(1));
         // The stage may start after the first poll.
-        let last = told.last().unwrap();
-        assert!(last.starts_with("1 of 3: uniting the shapes, 0."), "{told:?}");
-        assert!(told.len() <= 2, "{told:?}");
+        let last = shown.last().unwrap();
+        assert!(last.starts_with("1 of 3: uniting the shapes, 0."), "{shown:?}");
+        assert!(shown.len() <= 2, "{shown:?}");
     }
 }

@@ -21,18 +21,18 @@ const BYTES_PER_MEBIBYTE: f64 = 1_048_576.0;
 /// Executes the command.
 pub(crate) fn study(command: &StudyCommand) -> Result<u8, Failure> {
     match command {
-        StudyCommand::Plan(arguments) => tell_plan(arguments),
+        StudyCommand::Plan(arguments) => print_plans(arguments),
         StudyCommand::Run(arguments) => study_run::run(arguments),
         StudyCommand::Report(arguments) => write_report(arguments),
     }
 }
 
-fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
+fn print_plans(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
     let cores = cores(&arguments.cores);
-    each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| tell_one_plan(opened, cores))
+    each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| print_plan(opened, cores))
 }
 
-fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
+fn print_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
     if let Some(ensemble) = &opened.ensemble {
         return Ok(study_samples::plan(opened, ensemble));
     }
@@ -73,12 +73,12 @@ fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> T
         let mut row = vec![result.run.index.to_string()];
         let parameters = result.run.parameters.iter().zip(&changes).filter(|(_, changes)| **changes);
         row.extend(parameters.map(|(parameter, _)| shown(&parameter.value)));
-        let told = |tell: &dyn Fn(&Trial) -> String| estimate.as_ref().map_or("?".to_owned(), tell);
-        row.push(told(&|trial| trial.unknowns.to_string()));
-        row.push(told(&|trial| readable(trial.steps)));
+        let cell = |tell: &dyn Fn(&Trial) -> String| estimate.as_ref().map_or("?".to_owned(), tell);
+        row.push(cell(&|trial| trial.unknowns.to_string()));
+        row.push(cell(&|trial| readable(trial.steps)));
         let mebibytes = memory_of(Some(estimate)) as f64 / BYTES_PER_MEBIBYTE;
-        row.push(told(&|_| format!("{mebibytes:.0} MiB")));
-        row.push(told(&|trial| duration(trial.duration_s)));
+        row.push(cell(&|_| format!("{mebibytes:.0} MiB")));
+        row.push(cell(&|trial| duration(trial.duration_s)));
         row.push(result.standing.word().to_owned());
         row
     };

@@ -14,26 +14,26 @@ pub(crate) fn cores() -> usize {
 }
 
 /// The number requested by `option`, at most the number of cores; a reduction is reported.
-pub(crate) fn within_cores(option: &str, asked_for: usize) -> usize {
-    let (found, note) = bounded(option, asked_for, cores());
+pub(crate) fn within_cores(option: &str, requested: usize) -> usize {
+    let (found, note) = bounded(option, requested, cores());
     note.iter().for_each(tell);
     found
 }
 
-fn bounded(option: &str, asked_for: usize, cores: usize) -> (usize, Option<String>) {
-    if asked_for <= cores {
-        return (asked_for, None);
+fn bounded(option: &str, requested: usize, cores: usize) -> (usize, Option<String>) {
+    if requested <= cores {
+        return (requested, None);
     }
     let these = if cores == 1 { "1 core".to_owned() } else { format!("{cores} cores") };
-    (cores, Some(format!("{option} {asked_for}: this machine has {these}, and so many are used")))
+    (cores, Some(format!("{option} {requested}: this machine has {these}, and so many are used")))
 }
 
 /// The thread pool of a run: with the requested number of threads, or all cores.
 ///
 /// # Errors
 /// The system cannot create threads.
-pub(crate) fn pool(asked_for: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failure> {
-    let threads = match asked_for {
+pub(crate) fn pool(requested: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failure> {
+    let threads = match requested {
         Some(threads) => within_cores("--threads", usize::from(threads)),
         None => of_environment().unwrap_or_else(cores),
     };
@@ -45,17 +45,17 @@ pub(crate) fn pool(asked_for: Option<NonZeroUsize>) -> Result<rayon::ThreadPool,
 
 /// Limits loops outside of a pool to the cores, too.
 pub(crate) fn bound_environment() {
-    if asked_in_environment().is_some_and(|asked_for| asked_for > cores()) {
+    if requested_in_environment().is_some_and(|requested| requested > cores()) {
         // The global pool of a process can be set only once; this is called before it exists.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(cores()).build_global();
     }
 }
 
 fn of_environment() -> Option<usize> {
-    asked_in_environment().map(|asked_for| within_cores(VARIABLE, asked_for))
+    requested_in_environment().map(|requested| within_cores(VARIABLE, requested))
 }
 
-fn asked_in_environment() -> Option<usize> {
+fn requested_in_environment() -> Option<usize> {
     std::env::var(VARIABLE).ok()?.parse().ok().filter(|threads| *threads > 0)
 }
 

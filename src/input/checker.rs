@@ -33,8 +33,8 @@ impl Checker {
     pub(crate) fn require<T>(&mut self, path: &str, value: Option<T>, example: &str) -> Option<T> {
         if value.is_none() && !self.is_refused(path) {
             let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
-            let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
-            self.refuse(path, format!("missing key `{key}`{place}"), format!("add {example}"));
+            let location = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
+            self.refuse(path, format!("missing key `{key}`{location}"), format!("add {example}"));
         }
         value
     }

@@ -149,10 +149,10 @@ impl Renamed {
             let Some(DeValue::Table(inner)) = table.get_mut(*key).map(Spanned::get_mut) else { return false };
             table = inner;
         }
-        let place = table.get_key_value(self.before).map(|(key, _)| key.span());
-        let Some(place) = place.filter(|_| !table.contains_key(self.now)) else { return false };
+        let span = table.get_key_value(self.before).map(|(key, _)| key.span());
+        let Some(span) = span.filter(|_| !table.contains_key(self.now)) else { return false };
         let Some(value) = table.remove(self.before) else { return false };
-        table.insert(Spanned::new(place, self.now.into()), value);
+        table.insert(Spanned::new(span, self.now.into()), value);
         true
     }
 

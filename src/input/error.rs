@@ -70,9 +70,9 @@ impl Mistake {
 
     /// `file.toml:12:5: message`, and a second line with the help.
     fn render(&self) -> String {
-        let place = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
+        let location = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
         let help = self.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
-        format!("{}{place}: {}\n{help}", shortened(&self.name, LONGEST), self.message)
+        format!("{}{location}: {}\n{help}", shortened(&self.name, LONGEST), self.message)
     }
 }
 

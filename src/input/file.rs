@@ -35,8 +35,8 @@ pub(crate) fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
 /// See [`read`]; and [`io::ErrorKind::InvalidData`] with the line of the first byte that is not valid UTF-8.
 pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     let text = String::from_utf8(read(path, LARGEST_TEXT)?).map_err(|error| {
-        let place = not_text(error.as_bytes()).unwrap_or_default();
-        io::Error::new(io::ErrorKind::InvalidData, place)
+        let position = not_text(error.as_bytes()).unwrap_or_default();
+        io::Error::new(io::ErrorKind::InvalidData, position)
     })?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }

@@ -227,13 +227,13 @@ impl<'d> Reader<'d> {
 
     /// Puts a placeholder into a table for a missing key, so that the next missing key is reported, too.
     fn fill<T: DeserializeOwned>(&mut self, steps: &[Step], key: &str) -> bool {
-        let place = node_span(self.root.get_ref(), steps);
+        let span = node_span(self.root.get_ref(), steps);
         for depth in 0..=DEEPEST_ARRAY {
             let Container::Table(table) = container(self.root.get_mut(), steps) else { return false };
             table.remove(key);
             table.insert(Spanned::new(NOWHERE, key.to_owned().into()), filling(depth));
             if self.try_read::<T>().err().and_then(|error| error.span()) != Some(NOWHERE) {
-                self.filled.extend(place);
+                self.filled.extend(span);
                 return true;
             }
         }
@@ -245,8 +245,8 @@ impl<'d> Reader<'d> {
 
     /// Removes the tables that lacked keys.
     fn remove_filled(&mut self) {
-        for place in std::mem::take(&mut self.filled) {
-            let steps = find(self.root.get_ref(), &place);
+        for span in std::mem::take(&mut self.filled) {
+            let steps = find(self.root.get_ref(), &span);
             if !steps.is_empty() {
                 self.remove(steps);
             }

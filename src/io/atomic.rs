@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// A file cannot be written.
-    #[error("cannot write {}: {}; {}", path.display(), cause(source), way_out(source))]
+    #[error("cannot write {}: {}; {}", path.display(), cause(source), advice(source))]
     Write {
         /// The file.
         path: PathBuf,
@@ -19,7 +19,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// A folder cannot be created.
-    #[error("cannot make the folder {}: {}; {}", path.display(), cause(source), way_out(source))]
+    #[error("cannot make the folder {}: {}; {}", path.display(), cause(source), advice(source))]
     Folder {
         /// The folder.
         path: PathBuf,
@@ -81,7 +81,7 @@ fn cause(source: &io::Error) -> String {
 }
 
 /// Advice for the user.
-fn way_out(source: &io::Error) -> &'static str {
+fn advice(source: &io::Error) -> &'static str {
     match source.kind() {
         ErrorKind::StorageFull | ErrorKind::WriteZero | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
             "free some space or choose another place with --out, then go on with --resume"

@@ -60,17 +60,17 @@ pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
     Ok(Some(text))
 }
 
-fn ends(places: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
-    let edges = edges(places, logarithmic);
+fn ends(positions: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
+    let edges = edges(positions, logarithmic);
     edges.first().copied().unwrap_or(0.0)..edges.last().copied().unwrap_or(1.0)
 }
 
 /// The edges between positions, at the midpoints, and those of the first and the last.
-fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
+fn edges(positions: &[f64], logarithmic: bool) -> Vec<f64> {
     let to = |x: f64| if logarithmic { x.ln() } else { x };
     let from = |x: f64| if logarithmic { x.exp() } else { x };
-    let n = places.len();
-    let at = |i: usize| to(places[i]);
+    let n = positions.len();
+    let at = |i: usize| to(positions[i]);
     let edge = |i: usize| match i {
         0 => 1.5 * at(0) - 0.5 * at(1),
         _ if i == n => 1.5 * at(n - 1) - 0.5 * at(n - 2),
@@ -80,14 +80,14 @@ fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
 }
 
 fn band_color(band: usize) -> RGBColor {
-    let share = band as f64 / (BANDS - 1) as f64;
-    let [red, green, blue] = [0, 1, 2].map(|i| (LIGHT[i] + share * (DARK[i] - LIGHT[i])).round() as u8);
+    let fraction = band as f64 / (BANDS - 1) as f64;
+    let [red, green, blue] = [0, 1, 2].map(|i| (LIGHT[i] + fraction * (DARK[i] - LIGHT[i])).round() as u8);
     RGBColor(red, green, blue)
 }
 
-/// A color mixed with white; `share` is its fraction.
-fn lightened(color: RGBColor, share: f64) -> RGBColor {
-    let mix = |part: u8| (255.0 - share.min(1.0) * (255.0 - f64::from(part))).round() as u8;
+/// A color mixed with white; `fraction` is its part.
+fn lightened(color: RGBColor, fraction: f64) -> RGBColor {
+    let mix = |part: u8| (255.0 - fraction.min(1.0) * (255.0 - f64::from(part))).round() as u8;
     RGBColor(mix(color.0), mix(color.1), mix(color.2))
 }
 
@@ -149,10 +149,10 @@ fn draw<'a>(
         }
     }
     let width = SIZE.0 + if names.is_empty() { 0 } else { LEGEND };
-    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
-    whole.fill(&WHITE)?;
-    let (area, beside) = whole.split_horizontally(SIZE.0);
-    draw_legend(&beside, &names)?;
+    let canvas = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    canvas.fill(&WHITE)?;
+    let (area, margin) = canvas.split_horizontally(SIZE.0);
+    draw_legend(&margin, &names)?;
     let mut chart = ChartBuilder::on(&area)
         .caption(diagram.title, ("sans-serif", 18))
         .margin(12)
@@ -194,7 +194,7 @@ fn draw<'a>(
             }
         }
     }
-    whole.present()
+    canvas.present()
 }
 
 #[cfg(test)]

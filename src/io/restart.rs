@@ -109,10 +109,10 @@ mod tests {
         for length in 0..bytes.len() {
             assert!(decode(&bytes[..length]).is_err(), "{length} bytes were accepted");
         }
-        for place in 0..8 * bytes.len() {
+        for bit in 0..8 * bytes.len() {
             let mut changed = bytes.clone();
-            changed[place / 8] ^= 1 << (place % 8);
-            assert!(decode(&changed).is_err(), "bit {place} was changed and accepted");
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert!(decode(&changed).is_err(), "bit {bit} was changed and accepted");
         }
     }
 }

@@ -227,8 +227,8 @@ mod tests {
         for compression in [Compression::None, Compression::Zlib, Compression::Lz4] {
             let nothing = Lines { fields: fields(0), ..Lines::default() };
             let text = String::from_utf8(lines(&nothing, compression).unwrap()).unwrap();
-            for told in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
-                assert!(text.contains(told), "{text}");
+            for expected in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
+                assert!(text.contains(expected), "{text}");
             }
         }
     }
@@ -236,7 +236,8 @@ mod tests {
     #[test]
     fn arrays_around_the_length_of_a_block_are_read_back_to_the_bit() {
         let folder = tempfile::tempdir().unwrap();
-        let names = [Compression::None, Compression::Zlib, Compression::Lz4].map(|way| (way, format!("{way:?}")));
+        let names = [Compression::None, Compression::Zlib, Compression::Lz4]
+            .map(|compression| (compression, format!("{compression:?}")));
         // Blocks are full at 4096 numbers of a field, at 4096 vectors, and at 32768 types of cells.
         for count in [0, 1, 4095, 4096, 4097, 8192, 32767, 32768, 32769, 65536] {
             let given: Vec<Vec2> = (0..count).map(|i| Vec2::new((i as f64).sqrt(), -(i as f64) / 7.0)).collect();

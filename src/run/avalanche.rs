@@ -103,11 +103,11 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     let tension = solver.config().tension.ok_or(AvalancheError::NoNetwork)?;
     let earlier = first.checked_sub(1).map(|index| history[index]);
     let direction = if state.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
+    let at_rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
     Ok(Avalanche {
         invading: state.invading,
         pressure_pa: solver.config().pressure(state.invading, applied),
-        rest_pressure_pa: solver.config().pressure(state.invading, rest),
+        rest_pressure_pa: solver.config().pressure(state.invading, at_rest),
         in_plane_pa: tension * applied.abs(),
         saturation: [earlier.map_or(before, |entry| entry.saturation), history[first + events - 1].saturation],
         events,

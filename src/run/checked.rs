@@ -37,11 +37,11 @@ impl Checked {
     /// # Errors
     /// None that is known: all of it can be written as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
-        let mut told = serde_json::to_value(&self.trial)?;
-        told["warnings"] = serde_json::to_value(&self.warnings)?;
+        let mut report = serde_json::to_value(&self.trial)?;
+        report["warnings"] = serde_json::to_value(&self.warnings)?;
         if let Some(advice) = &self.advice {
-            told["advice"] = serde_json::to_value(advice)?;
+            report["advice"] = serde_json::to_value(advice)?;
         }
-        serde_json::to_string_pretty(&told)
+        serde_json::to_string_pretty(&report)
     }
 }

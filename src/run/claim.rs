@@ -34,9 +34,9 @@ pub(crate) fn claim(folder: &Path) -> Result<Claim, FolderError> {
     atomic::make_folder(&folder.join("restart"))?;
     let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
     let mut file = lock(folder, opened.map_err(FileError::write(&path))?)?;
-    let told = format!("process {} on {}\n", std::process::id(), host());
+    let holder = format!("process {} on {}\n", std::process::id(), host());
     file.set_len(0).and_then(|()| file.rewind()).map_err(FileError::write(&path))?;
-    file.write_all(told.as_bytes()).map_err(FileError::write(&path))?;
+    file.write_all(holder.as_bytes()).map_err(FileError::write(&path))?;
     Ok(Claim(file))
 }
 
@@ -64,8 +64,8 @@ fn lock(folder: &Path, mut file: File) -> Result<File, FolderError> {
 
 /// The name of this machine, if the system reports it.
 fn host() -> String {
-    let told = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().map(|name| name.trim().to_owned());
-    told.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "this machine".to_owned())
+    let hostname = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().map(|name| name.trim().to_owned());
+    hostname.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "this machine".to_owned())
 }
 
 #[cfg(test)]

@@ -45,11 +45,11 @@ impl Drift {
             let length = series.column(length).last().unwrap_or(f64::NAN);
             let turn = (2.0 * energy_to_lose(series, energy) / (tension * length)).sqrt().to_degrees();
             drift.by_flow = if turn.is_finite() { turn } else { 0.0 };
-            let way = at_rest.map_or(0.0, |[least, most]| value.clamp(least, most) - value);
-            if goes(series, column, way) || moved(series, column) > MOVED * way.abs() {
-                drift.left = drift.left.max(way.abs());
+            let distance = at_rest.map_or(0.0, |[least, most]| value.clamp(least, most) - value);
+            if approaches(series, column, distance) || moved(series, column) > MOVED * distance.abs() {
+                drift.left = drift.left.max(distance.abs());
             }
-            drift.off = if pins { 0.0 } else { way.abs() };
+            drift.off = if pins { 0.0 } else { distance.abs() };
         }
         Some(drift.within(kind.range(), value))
     }
@@ -99,15 +99,15 @@ fn moved(series: &Series, column: &str) -> f64 {
     windows(series, column).map_or(0.0, |windows| range(&windows.concat()))
 }
 
-/// Whether a column approaches a known end over the distance `way`: its mean moves there from window to window, in the last by more than [`NOISE`] of the range
+/// Whether a column approaches a known end over the signed `distance`: its mean moves there from window to window, in the last by more than [`NOISE`] of the range
 /// in the window and by more than [`SLOWEST`] of the distance.
 ///
 /// Spreading is a power law: an exponential through three windows ends long before the angle at rest.
-fn goes(series: &Series, column: &str, way: f64) -> bool {
+fn approaches(series: &Series, column: &str, distance: f64) -> bool {
     let Some(windows) = windows(series, column) else { return false };
     let [first, second, third] = windows.each_ref().map(|values| mean(values));
-    let (before, now) = ((second - first) * way.signum(), (third - second) * way.signum());
-    before > 0.0 && now > NOISE * range(&windows[2]) && now > SLOWEST * way.abs()
+    let (before, now) = ((second - first) * distance.signum(), (third - second) * distance.signum());
+    before > 0.0 && now > NOISE * range(&windows[2]) && now > SLOWEST * distance.abs()
 }
 
 /// Fraction of the range within a window by which its mean moves if that is not noise; a straight line moves by all of it.

@@ -105,8 +105,8 @@ pub fn execute(
     let steady = job.case.steady;
     let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
     let was_at_end = start != Start::New && simulation.is_at_end();
-    let begun = if start == Start::New { simulation.begin() } else { simulation.go_on() };
-    let ended = begun.and_then(|()| simulation.run());
+    let started = if start == Start::New { simulation.begin() } else { simulation.go_on() };
+    let ended = started.and_then(|()| simulation.run());
     let written = records.finish();
     let ended = ended.and_then(|outcome| written.map(|()| outcome));
     let mut report = report(job.case, job.resolved, solver, &records, &ended);

@@ -29,8 +29,8 @@ pub fn run_in_memory(
     let schedule = Schedule::new(&case.output, case.end);
     let mut simulation =
         Simulation { solver, schedule, steady: case.steady, records: &mut records, interrupt, watcher };
-    let begun = simulation.begin();
-    let ended = begun.and_then(|()| simulation.run());
+    let started = simulation.begin();
+    let ended = started.and_then(|()| simulation.run());
     let mut report = report(case, resolved, solver, &records, &ended);
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     ended?;

@@ -87,9 +87,9 @@ mod tests {
         // 10,000 particles need 15 MiB, a million a hundred times as much.
         assert_eq!(holds(area, 1e-5, available), Ok(()));
         let refused = holds(area, 1e-6, available).unwrap_err();
-        let told = "a spacing of 1e-6 m gives 1.00e6 particles, which need about 1526 MiB of memory, and 150 MiB are available; a spacing of \
+        let message = "a spacing of 1e-6 m gives 1.00e6 particles, which need about 1526 MiB of memory, and 150 MiB are available; a spacing of \
                     3.2e-6 m or more would do";
-        assert_eq!(refused.to_string(), told);
+        assert_eq!(refused.to_string(), message);
         assert_eq!(holds(area, refused.enough, available), Ok(()));
     }
 

@@ -31,8 +31,8 @@ impl ProcessorTime {
 
     /// With the time of earlier processes until they saved the state in `folder`.
     pub(crate) fn after_that_in(self, folder: &Path) -> Self {
-        let told = std::fs::read_to_string(file(folder)).ok();
-        let before = told.and_then(|text| {
+        let saved = std::fs::read_to_string(file(folder)).ok();
+        let before = saved.and_then(|text| {
             let (seconds, checksum) = text.trim().split_once(' ')?;
             (checksum == checksum_of(seconds)).then_some(seconds)?.parse().ok()
         });

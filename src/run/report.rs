@@ -250,11 +250,11 @@ pub(crate) fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String,
 /// Whether a folder has the report of a run that reached its end.
 pub(crate) fn is_of_the_end(folder: &Path) -> bool {
     #[derive(Deserialize)]
-    struct Told {
+    struct Ending {
         status: Status,
     }
-    let told = std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
-    told.is_some_and(|told: Told| matches!(told.status, Status::Done | Status::ExpectationFailed))
+    let ending = std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    ending.is_some_and(|ending: Ending| matches!(ending.status, Status::Done | Status::ExpectationFailed))
 }
 
 impl Report {

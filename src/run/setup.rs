@@ -197,17 +197,17 @@ pub(crate) fn drop_area(case: &Case) -> Option<f64> {
     let region = sph::setup::region(case, &sph.initial.wetting);
     let (min, max) = (Vec2::from(case.geometry.min), Vec2::from(case.geometry.max));
     let cell = (max - min) / NODES as f64;
-    let mut seen = [(0, Bounds { min: max, max: min }); 2];
+    let mut found = [(0, Bounds { min: max, max: min }); 2];
     for (i, j) in (0..NODES).flat_map(|i| (0..NODES).map(move |j| (i, j))) {
         let x = min + cell.component_mul(&Vec2::new(i as f64 + 0.5, j as f64 + 0.5));
         if pore.signed_distance(x) > 0.0 {
             let is_wetting = (region.signed_distance(x) < 0.0) != sph.initial.wetting_is_background;
-            let (count, around) = &mut seen[usize::from(is_wetting)];
+            let (count, around) = &mut found[usize::from(is_wetting)];
             *count += 1;
             *around = Bounds { min: around.min.inf(&x), max: around.max.sup(&x) };
         }
     }
-    let (count, around) = if seen[0].0 < seen[1].0 { seen[0] } else { seen[1] };
+    let (count, around) = if found[0].0 < found[1].0 { found[0] } else { found[1] };
     let spans = [0, 1].map(|k| around.min[k] < min[k] + cell[k] && around.max[k] > max[k] - cell[k]);
     (count > 0 && spans == [false; 2]).then(|| count as f64 * cell.x * cell.y)
 }

@@ -52,9 +52,9 @@ impl Source {
 
     /// Problems of the case that were found later, each with its location in the file.
     pub(crate) fn refused_for(&self, problems: Vec<Problem>) -> Refusal {
-        let told = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+        let message = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
         let placed = self.document.as_ref().and_then(|document| document.refuse(problems).err());
-        placed.map_or(Refusal::Setup(told), Refusal::Input)
+        placed.map_or(Refusal::Setup(message), Refusal::Input)
     }
 
     /// A case that does not fit, with the location of the key that a user would change.

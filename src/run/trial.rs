@@ -146,10 +146,10 @@ mod tests {
     #[test]
     fn steps_that_take_long_are_tried_once_and_tell_as_much() {
         for (patience, steps) in [(f64::INFINITY, 20), (0.0, 1)] {
-            let (mut solver, mut told) = (MockSolver::new(), Vec::new());
-            let found = trial_within(&case(), &mut solver, patience, &mut |share| told.push(share)).unwrap();
+            let (mut solver, mut fractions) = (MockSolver::new(), Vec::new());
+            let found = trial_within(&case(), &mut solver, patience, &mut |fraction| fractions.push(fraction)).unwrap();
             assert_eq!((solver.steps(), found.steps), (steps, 50.0));
-            assert_eq!(told[..2], [0.0, 0.2]);
+            assert_eq!(fractions[..2], [0.0, 0.2]);
         }
     }
 }

@@ -38,10 +38,10 @@ impl Writer {
     /// [`FileError::Write`] if the system cannot start a thread.
     pub(crate) fn start(folder: &Path, files: VtkFiles, frames: FrameList) -> Result<Self, FileError> {
         let (sender, receiver) = sync_channel(WAITING);
-        let place = folder.to_path_buf();
+        let target = folder.to_path_buf();
         let thread = std::thread::Builder::new()
             .name("output".into())
-            .spawn(move || write_all(&place, files, frames, &receiver))
+            .spawn(move || write_all(&target, files, frames, &receiver))
             .map_err(FileError::write(folder))?;
         Ok(Self { records: Some(sender), thread: Some(thread) })
     }
@@ -138,11 +138,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         atomic::write(&folder.path().join("grid"), b"").unwrap();
         let mut writer = writer(folder.path());
-        let mut told = writer.write(Record::Frame(Box::new(Frame::of(&MockSolver::new()))));
+        let mut result = writer.write(Record::Frame(Box::new(Frame::of(&MockSolver::new()))));
         for step in 0..5 {
-            told = told.and_then(|()| writer.write(state(step)));
+            result = result.and_then(|()| writer.write(state(step)));
         }
-        let error = told.and_then(|()| writer.finish()).unwrap_err().to_string();
+        let error = result.and_then(|()| writer.finish()).unwrap_err().to_string();
         assert!(error.contains("grid"), "{error}");
         assert!(!restart::path(folder.path()).exists());
         assert!(writer.finish().is_ok(), "an error is told once");

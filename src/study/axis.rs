@@ -163,12 +163,12 @@ fn numbers(checker: &mut Checker, raw: &RawRange, at: &str) -> Option<Vec<f64>> 
         );
         return None;
     }
-    let share = |number: usize| number as f64 / (count - 1) as f64;
+    let fraction = |number: usize| number as f64 / (count - 1) as f64;
     let value = |number: usize| match number {
         0 => from,
         last if last + 1 == count => to,
-        _ if logarithmic => rounded(from * (to / from).powf(share(number))),
-        _ => rounded(from + (to - from) * share(number)),
+        _ if logarithmic => rounded(from * (to / from).powf(fraction(number))),
+        _ => rounded(from + (to - from) * fraction(number)),
     };
     Some((0..count).map(value).collect())
 }

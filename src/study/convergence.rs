@@ -80,14 +80,14 @@ pub(crate) fn groups<'a>(
         others.map(|p| format!("{}={}", p.name, shown(&p.value))).collect::<Vec<_>>().join(" ")
     };
     let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
-    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    let mut indices: BTreeMap<String, usize> = BTreeMap::new();
     for result in results {
         let name = group(result);
-        let place = *places.entry(name.clone()).or_insert(groups.len());
-        if place == groups.len() {
+        let index = *indices.entry(name.clone()).or_insert(groups.len());
+        if index == groups.len() {
             groups.push((name, Vec::new()));
         }
-        groups[place].1.push(result);
+        groups[index].1.push(result);
     }
     groups
 }

@@ -77,7 +77,7 @@ pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
         let (Some(x), Some(y)) = (result.number(&curve.x), result.number(&curve.y)) else { continue };
         let reference = curve.reference.as_ref().and_then(|reference| result.run.quantity(reference));
         let shown_y = if curve.error { (y - reference.unwrap_or(0.0)).abs() } else { y };
-        let place = lines.iter().position(|line| line.name == name).unwrap_or_else(|| {
+        let index = lines.iter().position(|line| line.name == name).unwrap_or_else(|| {
             lines.push(Line { name, points: Vec::new(), reference: Vec::new() });
             lines.len() - 1
         });
@@ -85,11 +85,11 @@ pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
             let is_rounding = curve.error && shown_y <= result.rounding(&curve.y, reference.unwrap_or(0.0));
             let is_at_rest = [&curve.x, &curve.y].into_iter().all(|name| result.motion(name).is_none());
             let uncertainty = result.uncertainty(&curve.y);
-            lines[place].points.push(Point { x, y: shown_y, uncertainty, is_at_rest, is_rounding });
+            lines[index].points.push(Point { x, y: shown_y, uncertainty, is_at_rest, is_rounding });
         }
         if let Some(reference) = reference.filter(|r| !curve.error && fits(curve.x_scale, x) && fits(curve.y_scale, *r))
         {
-            lines[place].reference.push((x, reference));
+            lines[index].reference.push((x, reference));
         }
     }
     for line in &mut lines {
@@ -185,11 +185,11 @@ fn draw<'a>(
     let names: Vec<(String, RGBColor)> = lines.iter().enumerate().map(name).collect();
     let named = names.iter().any(|(name, _)| !name.is_empty());
     let width = SIZE.0 + if named { LEGEND } else { 0 };
-    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
-    whole.fill(&WHITE)?;
-    let (area, beside) = whole.split_horizontally(SIZE.0);
+    let canvas = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    canvas.fill(&WHITE)?;
+    let (area, margin) = canvas.split_horizontally(SIZE.0);
     if named {
-        draw_legend(&beside, &names)?;
+        draw_legend(&margin, &names)?;
     }
     let mut chart = ChartBuilder::on(&area)
         .caption(&curve.title, ("sans-serif", 20))
@@ -223,7 +223,7 @@ fn draw<'a>(
         chart.draw_series(line.points.iter().map(|point| Circle::new((point.x, point.y), 4, style(point))))?;
         chart.draw_series(DashedLineSeries::new(line.reference.iter().copied(), 6, 4, color.into()))?;
     }
-    whole.present()
+    canvas.present()
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ const MEMORY_OF_OUTPUT: f64 = 16.0 * 1_048_576.0;
 const MEMORY_SHARE: f64 = 0.9;
 
 /// Polling interval of the processes.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
+const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
 /// The work to do.
 #[derive(Debug)]
@@ -101,7 +101,7 @@ pub(crate) fn memory_of(estimate: Option<&Estimate>) -> u64 {
 ///
 /// # Errors
 /// [`FileError`] if a log cannot be written.
-pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
+pub(crate) fn work(work: &Work<'_>, progress: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
     let complete = |planned: &PlannedRun| is_complete(&work.folder.run(&planned.run.name), planned);
     let mut ends: Vec<End> =
         work.runs.iter().map(|run| if complete(run) { End::WasComplete } else { End::Interrupted }).collect();
@@ -120,11 +120,11 @@ pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<
             match start(work, number)? {
                 Ok(worker) => {
                     workers.push(worker);
-                    told(&Event::Started(&work.runs[number].run));
+                    progress(&Event::Started(&work.runs[number].run));
                 }
                 Err(why) => {
                     ends[number] = End::Failed(why);
-                    told(&Event::Ended(&work.runs[number].run, &ends[number], Duration::ZERO));
+                    progress(&Event::Ended(&work.runs[number].run, &ends[number], Duration::ZERO));
                 }
             }
         }
@@ -139,10 +139,10 @@ pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<
                 Err(error) => End::Failed(error.to_string()),
             };
             ends[worker.number] = ended;
-            told(&Event::Ended(&work.runs[worker.number].run, &ends[worker.number], worker.begun.elapsed()));
+            progress(&Event::Ended(&work.runs[worker.number].run, &ends[worker.number], worker.begun.elapsed()));
         }
         workers = at_work;
-        std::thread::sleep(BETWEEN_LOOKS);
+        std::thread::sleep(POLLING_INTERVAL);
     }
     Ok(ends)
 }

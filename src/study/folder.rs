@@ -16,7 +16,7 @@ use crate::io::{FileError, atomic};
 const LOCK: &str = "study.lock";
 
 /// Polling interval of a lock held by another process.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Why a study folder cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -138,7 +138,7 @@ impl StudyFolder {
             if interrupt.load(Ordering::Relaxed) {
                 return Ok(None);
             }
-            std::thread::sleep(BETWEEN_LOOKS);
+            std::thread::sleep(POLLING_INTERVAL);
         }
         Ok(Some(Claim { _lock: file }))
     }

@@ -100,7 +100,7 @@ fn read_axes(checker: &mut Checker, raw: &RawStudy, folder: &Path) -> (Vec<Optio
 }
 
 /// The key path of the axis of a parameter: `axis[2]` of `axis[2].values[0]`.
-fn place_of(column: &Column) -> &str {
+fn axis_path(column: &Column) -> &str {
     let origin = column.origins.first().map_or("axis", String::as_str);
     origin.find(']').map_or(origin, |end| &origin[..=end])
 }
@@ -118,16 +118,16 @@ fn comparison(checker: &mut Checker, raw: Option<&RawComparison>, folder: &Path)
 
 /// Refuses duplicate parameter names and too many runs.
 fn check_axes(checker: &mut Checker, axes: &[Axis]) {
-    let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut taken: BTreeMap<&str, &str> = BTreeMap::new();
     for column in axes.iter().flat_map(|axis| &axis.columns) {
-        let at = place_of(column);
+        let at = axis_path(column);
         let name = column.name.as_str();
         let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
         if !is_bare {
             checker.refuse(at, format!("`{name}` is not a name of a parameter"), "letters, digits, `-` and `_`");
         } else if TAKEN.contains(&name) || RUN_NUMBERS.contains(&name) {
             checker.refuse(at, format!("`{name}` is the name of a column of the report"), "give another `name`");
-        } else if let Some(other) = seen.insert(name, at) {
+        } else if let Some(other) = taken.insert(name, at) {
             let help = "give one of them another `name`";
             checker.refuse(at, format!("two parameters are called `{name}`, the other one in {other}"), help);
         }
@@ -159,7 +159,7 @@ fn check_keys(checker: &mut Checker, axes: &[Axis], set: &[Assignment]) {
     for axis in axes {
         for column in &axis.columns {
             let Target::Keys(keys) = &column.target else { continue };
-            let at = place_of(column);
+            let at = axis_path(column);
             for key in keys {
                 if Overrides::parse(&[format!("{key}=0")]).is_err() {
                     checker.refuse(at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");

@@ -47,7 +47,7 @@ impl Numbered {
         let study = load(path)?;
         let all = runs(&study);
         let absent = NumberedError::Absent { count: all.len(), index };
-        let run = index.checked_sub(1).and_then(|place| all.get(place)).ok_or(absent)?;
+        let run = index.checked_sub(1).and_then(|position| all.get(position)).ok_or(absent)?;
         let planned = run.plan(&study)?;
         if digest.is_some_and(|digest| digest != planned.digest()) {
             return Err(NumberedError::Changed(index));

@@ -179,10 +179,10 @@ fn push_diagrams(html: &mut String, results: &[RunResult], diagrams: &[Vec<Strin
         let name = escaped(&result.run.name);
         let _ = writeln!(html, "<h2>{name}</h2>\n<div class=\"diagrams\">");
         for file in files.iter().map(|file| escaped(file)) {
-            let place = format!("runs/{name}/{file}");
+            let link = format!("runs/{name}/{file}");
             let _ = writeln!(
                 html,
-                "<figure><a href=\"{place}\"><img loading=\"lazy\" src=\"{place}\" alt=\"{file}\"></a></figure>"
+                "<figure><a href=\"{link}\"><img loading=\"lazy\" src=\"{link}\" alt=\"{file}\"></a></figure>"
             );
         }
         html.push_str("</div>\n");

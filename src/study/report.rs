@@ -81,8 +81,8 @@ fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Resu
     let name = |result: &RunResult| {
         // One column identifies the value of an axis.
         let columns = study.axes.iter().filter_map(|axis| axis.columns.first()).map(|column| column.name.as_str());
-        let told = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
-        columns.filter(|name| varies(name)).filter_map(told).collect::<Vec<_>>().join(", ")
+        let assignment = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
+        columns.filter(|name| varies(name)).filter_map(assignment).collect::<Vec<_>>().join(", ")
     };
     let complete = results.iter().filter(|result| study.compare.is_none() && result.standing.report().is_some());
     let runs: Vec<(String, PathBuf)> = complete.map(|result| (name(result), folder.run(&result.run.name))).collect();
@@ -159,11 +159,11 @@ pub(crate) fn report_of(
         convergences: &convergences,
         uncertainty: uncertainty.as_ref(),
     };
-    let place = path("report.html");
-    atomic::write(&place, page(&content).as_bytes())?;
+    let page_path = path("report.html");
+    atomic::write(&page_path, page(&content).as_bytes())?;
     let unknown = unknown(study, &results);
     let moving = moving(&results, &table::shown_measures(study, &results));
-    Ok(StudyReport { moving, results, table, csv, judgments, convergences, unknown, page: place })
+    Ok(StudyReport { moving, results, table, csv, judgments, convergences, unknown, page: page_path })
 }
 
 /// Names that no run has; the measures of a run are known once it is complete.
@@ -180,11 +180,11 @@ fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
     let names: BTreeSet<&str> = expected.chain(trends).chain(curves).chain(table).map(String::as_str).collect();
     let is_parameter = |name: &str| study.parameters().any(|column| column.name == name);
     let lost = names.into_iter().filter(|name| !known.contains(name) && !is_parameter(name));
-    let told = |name: &str| match nearest(name, known.iter().copied()) {
+    let message = |name: &str| match nearest(name, known.iter().copied()) {
         Some(near) => format!("no run has the measure `{name}`; did you mean `{near}`?"),
         None => format!("no run has the measure `{name}`"),
     };
-    lost.map(told).collect()
+    lost.map(message).collect()
 }
 
 #[cfg(test)]

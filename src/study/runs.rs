@@ -30,23 +30,23 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
     let mut assignments = study.set.clone();
     let mut labels = Vec::new();
     let mut rest = number;
-    let mut places = vec![0; study.axes.len()];
-    for (place, axis) in places.iter_mut().zip(&study.axes).rev() {
-        *place = rest % axis.len().max(1);
+    let mut indices = vec![0; study.axes.len()];
+    for (index, axis) in indices.iter_mut().zip(&study.axes).rev() {
+        *index = rest % axis.len().max(1);
         rest /= axis.len().max(1);
     }
-    for (&place, axis) in places.iter().zip(&study.axes) {
+    for (&index, axis) in indices.iter().zip(&study.axes) {
         for (number, column) in axis.columns.iter().enumerate() {
-            let Some(value) = column.values.get(place) else { continue };
+            let Some(value) = column.values.get(index) else { continue };
             match &column.target {
                 Target::Keys(keys) => {
-                    let origin = column.origins.get(place).cloned().unwrap_or_default();
+                    let origin = column.origins.get(index).cloned().unwrap_or_default();
                     let set = |key: &String| Assignment { text: format!("{key}={value}"), origin: origin.clone() };
                     assignments.extend(keys.iter().map(set));
                 }
                 Target::Case(files) => {
-                    case = files.get(place).cloned().unwrap_or_default();
-                    case_origin = column.origins.get(place).cloned().unwrap_or_default();
+                    case = files.get(index).cloned().unwrap_or_default();
+                    case_origin = column.origins.get(index).cloned().unwrap_or_default();
                 }
                 Target::Nothing => {}
             }
@@ -118,13 +118,13 @@ impl Mistakes {
     /// # Errors
     /// The mistakes, if there are any.
     pub(super) fn finish(self) -> Result<(), InputError> {
-        let told = |(mut mistake, more): (Mistake, usize)| {
+        let merged = |(mut mistake, more): (Mistake, usize)| {
             if more > 0 {
                 mistake.message += &format!("; {more} more samples are refused here");
             }
             mistake
         };
-        let mistakes: Vec<Mistake> = self.found.into_iter().zip(self.more).map(told).collect();
+        let mistakes: Vec<Mistake> = self.found.into_iter().zip(self.more).map(merged).collect();
         if mistakes.is_empty() { Ok(()) } else { Err(InputError { mistakes }) }
     }
 }

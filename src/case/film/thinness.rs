@@ -122,8 +122,9 @@ impl ThinFilm {
     /// The note that the geometric equation leaves a film behind a contact line that recedes far.
     fn receding_note(&self) -> Option<String> {
         let (FilmEquation::Geometric(_), Some(angle)) = (self.equation, self.contact_angle) else { return None };
-        let rest = |droplet: &FilmDroplet| (droplet.cross_section() / angle.tan()).sqrt();
-        let widest = self.droplets.iter().map(|droplet| droplet.half_width / rest(droplet)).fold(0.0, f64::max);
+        let half_width_at_rest = |droplet: &FilmDroplet| (droplet.cross_section() / angle.tan()).sqrt();
+        let widest =
+            self.droplets.iter().map(|droplet| droplet.half_width / half_width_at_rest(droplet)).fold(0.0, f64::max);
         (widest > RECEDES).then(|| {
             format!(
                 "a droplet begins {widest:.2} times as wide as it rests, expected at most {RECEDES}: a geometric film leaves liquid behind a \

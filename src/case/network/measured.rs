@@ -31,8 +31,8 @@ pub struct MeasuredThroat {
 
 /// The case with the measured values from its file, if it names one.
 pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder: &Path) -> RawNetwork {
-    let mut whole = raw.clone();
-    let Some(file) = whole.measured.take() else { return whole };
+    let mut completed = raw.clone();
+    let Some(file) = completed.measured.take() else { return completed };
     const PATH: &str = "network.measured";
     if raw.measured_throats.is_some() {
         checker.refuse(
@@ -40,7 +40,7 @@ pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder
             "measured values are given twice, by this file and by [network.measured-throats]",
             "keep one of both",
         );
-        return whole;
+        return completed;
     }
     let path = folder.join(&file);
     let help = "name the measured.json of `meniscus network verify`, relative to the case file";
@@ -50,10 +50,10 @@ pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder
             Err(error) => {
                 checker.refuse(PATH, format!("{} is no list of measured throats: {error}", path.display()), help)
             }
-            Ok(measured) => whole.measured_throats = Some(table(&measured)),
+            Ok(measured) => completed.measured_throats = Some(table(&measured)),
         },
     }
-    whole
+    completed
 }
 
 /// The values as a table of a case.

@@ -71,13 +71,13 @@ pub(super) fn region(
     }
     let min = checker.require("network.region.min", given.min, "min = [1.0e-3, 0.0] # m, or extent = \"pack\"")?;
     let max = checker.require("network.region.max", given.max, "max = [5.0e-3, 4.0e-3] # m")?;
-    let told = format!(
+    let extent = format!(
         "the domain reaches from [{:e}, {:e}] to [{:e}, {:e}] m",
         domain.min.x, domain.min.y, domain.max.x, domain.max.y
     );
     if (0..2).any(|axis| min[axis].partial_cmp(&max[axis]) != Some(std::cmp::Ordering::Less)) {
         let message = format!("expected `max` above and to the right of `min`, found {min:?} and {max:?}");
-        checker.refuse("network.region.max", message, told);
+        checker.refuse("network.region.max", message, extent);
         return None;
     }
     // Corners may have been rounded in the file.
@@ -85,7 +85,7 @@ pub(super) fn region(
     let is_inside = (0..2).all(|axis| min[axis] >= domain.min[axis] - slack && max[axis] <= domain.max[axis] + slack);
     if !is_inside {
         let message = format!("expected a region inside of the domain, found one from {min:?} to {max:?} m");
-        checker.refuse(KEY, message, told);
+        checker.refuse(KEY, message, extent);
         return None;
     }
     Some(Region { min, max })

@@ -227,7 +227,7 @@ impl NetworkState {
             .zip(self.sides.into_iter().zip(given))
             .map(|(name, (state, side))| (name, state, side))
             .find(|&(_, state, side)| !fits(state, side))?;
-        let told = |side: Side| match side {
+        let kind = |side: Side| match side {
             Side::Periodic => "periodic",
             Side::Wall => "a wall",
             Side::Image => "an image wall",
@@ -235,6 +235,6 @@ impl NetworkState {
             Side::Inlet => "the inlet",
             Side::Outlet => "the outlet",
         };
-        Some((name, format!("its side `{name}` is {}, that of this case {}", told(state), told(side))))
+        Some((name, format!("its side `{name}` is {}, that of this case {}", kind(state), kind(side))))
     }
 }

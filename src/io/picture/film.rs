@@ -30,7 +30,7 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
         return Err(PictureError::Empty);
     }
     let floor = HEAD + TALL;
-    let place = |x: &Vec2| [RIM + (across * (x.x - first.x)) as f32, floor - (up * x.y) as f32];
+    let pixel = |x: &Vec2| [RIM + (across * (x.x - first.x)) as f32, floor - (up * x.y) as f32];
     let mut canvas = Canvas::new(WIDTH, (floor + WALL + FOOT).ceil() as u32)?;
     let mut next = 0;
     for column in 0..room as u32 {
@@ -39,13 +39,13 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
             next += 1;
         }
         let (a, b) = (profile[next], profile[(next + 1).min(profile.len() - 1)]);
-        let share = if b.x > a.x { (x - a.x) / (b.x - a.x) } else { 0.0 };
-        let tall = (up * (a.y + share * (b.y - a.y))).max(0.0) as f32;
+        let fraction = if b.x > a.x { (x - a.x) / (b.x - a.x) } else { 0.0 };
+        let tall = (up * (a.y + fraction * (b.y - a.y))).max(0.0) as f32;
         canvas.rectangle([RIM + column as f32, floor - tall], [1.0, tall], FLUIDS[0].color);
     }
     canvas.rectangle([RIM, floor], [room as f32, WALL], SOLID);
     canvas.polyline([[RIM, floor], [RIM + room as f32, floor]].into_iter(), 1.5, OUTLINE);
-    canvas.polyline(profile.iter().map(place), 3.0, INTERFACE);
+    canvas.polyline(profile.iter().map(pixel), 3.0, INTERFACE);
     heading(&mut canvas, title, &time_text(snapshot.time));
     let entries = [("wetting", FLUIDS[0].color), ("solid", SOLID), ("interface", INTERFACE)];
     canvas.legend(&entries, [WIDTH as f32 - RIM, 82.0], TEXT_SIZE);
@@ -86,8 +86,8 @@ mod tests {
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == FLUIDS[0].color).count();
         // Two thirds of the bounding box of a parabola, minus its stroke.
-        let share = count as f64 / (FILLED * f64::from(TALL) * f64::from(WIDTH as f32 - 2.0 * RIM));
-        assert!((share - 2.0 / 3.0).abs() < 0.02, "{share}");
+        let fraction = count as f64 / (FILLED * f64::from(TALL) * f64::from(WIDTH as f32 - 2.0 * RIM));
+        assert!((fraction - 2.0 / 3.0).abs() < 0.02, "{fraction}");
         snapshot.interface = None;
         assert!(matches!(film_picture(&snapshot, ""), Err(PictureError::Empty)));
     }

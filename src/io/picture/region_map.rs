@@ -13,13 +13,13 @@ const FOOT: f32 = 190.0;
 const BAR: f32 = 26.0;
 
 /// The color at a fraction of the bar.
-fn color_at(bar: &[Rgb], share: f64) -> Rgb {
-    let place = share.clamp(0.0, 1.0) * (bar.len() - 1) as f64;
-    let below = (place.floor() as usize).min(bar.len() - 2);
-    let rest = place - below as f64;
+fn color_at(bar: &[Rgb], fraction: f64) -> Rgb {
+    let position = fraction.clamp(0.0, 1.0) * (bar.len() - 1) as f64;
+    let below = (position.floor() as usize).min(bar.len() - 2);
+    let remainder = position - below as f64;
     let mix = |i: usize| {
         let (a, b) = (f64::from(bar[below][i]), f64::from(bar[below + 1][i]));
-        (a + rest * (b - a)).round() as u8
+        (a + remainder * (b - a)).round() as u8
     };
     [mix(0), mix(1), mix(2)]
 }
@@ -83,16 +83,16 @@ fn color_bar(canvas: &mut Canvas, region_map: &RegionMap, top: f32) {
     canvas.text(&label, [RIM, top + 22.0], TEXT_SIZE);
     let length = RIM + width - from;
     for column in 0..length as u32 {
-        let share = f64::from(column) / f64::from(length);
-        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(region_map.bar, share));
+        let fraction = f64::from(column) / f64::from(length);
+        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(region_map.bar, fraction));
     }
     let [low, high] = region_map.range;
     for number in 0..NUMBERS {
-        let share = f64::from(number) / f64::from(NUMBERS - 1);
-        let value = low + share * (high - low);
+        let fraction = f64::from(number) / f64::from(NUMBERS - 1);
+        let value = low + fraction * (high - low);
         let text = short(format!("{value:.2e}").parse().unwrap_or(value));
         let wide = canvas.text_width(&text, TEXT_SIZE);
-        let x = (from + share as f32 * length - 0.5 * wide).min(RIM + width - wide);
+        let x = (from + fraction as f32 * length - 0.5 * wide).min(RIM + width - wide);
         canvas.text(&text, [x, top + BAR + 28.0], TEXT_SIZE);
     }
 }

@@ -93,8 +93,8 @@ impl View {
         let [tail, tip] = if through == Through::In { [far, near] } else { [near, far] };
         let head = if through == Through::In { 0.35 * room } else { -0.35 * room };
         for k in 1..=ARROWS {
-            let share = k as f32 / (ARROWS + 1) as f32;
-            let foot = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+            let fraction = k as f32 / (ARROWS + 1) as f32;
+            let foot = [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]));
             let at = |out: f32, aside: f32| {
                 [foot[0] + out * outward[0] + aside * outward[1], foot[1] + out * outward[1] + aside * outward[0]]
             };

@@ -146,19 +146,19 @@ fn invaded(snapshot: &Snapshot<'_>, grid: &Grid, invading: FluidPhase) -> Vec<bo
     let phases = snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values);
     let Some(Values::Integer(phases)) = phases else { return vec![false; grid.cells.len()] };
     let (cell, [columns, rows]) = (grid.cell(), grid.counts);
-    let place = |x: Vec2| {
+    let cell_at = |x: Vec2| {
         let at = (x - grid.bounds.min).component_div(&cell);
         [at.x.floor() as i64, at.y.floor() as i64]
     };
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); columns * rows];
     for (a, &x) in snapshot.particles.points.iter().enumerate().filter(|(a, _)| phases[*a] != SOLID) {
-        let [i, j] = place(x);
+        let [i, j] = cell_at(x);
         if (0..columns as i64).contains(&i) && (0..rows as i64).contains(&j) {
             around[j as usize * columns + i as usize].push(a);
         }
     }
     let nearest = |x: Vec2| {
-        let [i, j] = place(x);
+        let [i, j] = cell_at(x);
         // Rings of cells: one beyond the first that has a particle, because a nearer one may be there.
         let mut found: Option<(f64, usize)> = None;
         let mut last = i64::from(u16::MAX);

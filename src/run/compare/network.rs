@@ -68,14 +68,14 @@ pub(crate) fn track_in_time(
     let solver = setup::build_in_time(case, wanted).map_err(SetupError::from)?;
     let mut solver = solver.ok_or(CompareError::NoNetwork)?;
     let mut found = vec![record_in_time(&solver, grid)];
-    let mut filled: Vec<Option<usize>> = solver.shares().map(|share| (share > 0.5).then_some(0)).collect();
+    let mut filled: Vec<Option<usize>> = solver.shares().map(|fraction| (fraction > 0.5).then_some(0)).collect();
     for number in 1..=records {
         let until = end * number as f64 / records as f64;
         while !solver.is_done() && solver.time() < until {
             solver.step(until)?;
         }
         found.push(record_in_time(&solver, grid));
-        for (filled, _) in filled.iter_mut().zip(solver.shares()).filter(|(_, share)| *share > 0.5) {
+        for (filled, _) in filled.iter_mut().zip(solver.shares()).filter(|(_, fraction)| *fraction > 0.5) {
             filled.get_or_insert(number);
         }
         if solver.is_done() {

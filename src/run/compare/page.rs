@@ -36,7 +36,7 @@ pub(crate) fn page(comparison: &Comparison) -> String {
 
 fn table(comparison: &Comparison) -> String {
     let number = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.4e}"));
-    let share = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.3}"));
+    let fraction = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.3}"));
     let seconds = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.2}"));
     let both = [&comparison.network, &comparison.direct];
     let row = |name: &str, cells: [String; 2]| {
@@ -49,7 +49,7 @@ fn table(comparison: &Comparison) -> String {
     };
     let rows = [
         first,
-        row("saturation at breakthrough", of(&|side| share(side.saturation_at_breakthrough))),
+        row("saturation at breakthrough", of(&|side| fraction(side.saturation_at_breakthrough))),
         row("permeability along x in m&sup2;", of(&|side| number(side.permeability_m2))),
         row("pores; particles", of(&|side| side.unknowns.to_string())),
         row("events; time steps", of(&|side| side.steps.to_string())),
@@ -61,8 +61,8 @@ fn table(comparison: &Comparison) -> String {
          elements were filled: {}. Overlap of the invaded areas, mean over all records: {}.</p>\n",
         rows.concat(),
         comparison.elements_in_both,
-        share(comparison.rank_correlation),
-        share(comparison.mean_overlap)
+        fraction(comparison.rank_correlation),
+        fraction(comparison.mean_overlap)
     )
 }
 

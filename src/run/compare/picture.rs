@@ -39,7 +39,7 @@ pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) 
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
          font-family=\"sans-serif\" font-size=\"15\"><rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"white\"/>"
     );
-    let places = Placing { maps, tall };
+    let placing = Placing { maps, tall };
     let [invading, defending] = match maps.invading {
         FluidPhase::Wetting => [colors::WETTING, colors::NON_WETTING],
         FluidPhase::NonWetting => [colors::NON_WETTING, colors::WETTING],
@@ -69,7 +69,7 @@ pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) 
             "</g><g transform=\"translate({left:.0} {HEAD:.0})\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\">\
              <path d=\"{}\"/><path stroke-width=\"1\" d=\"M0 0H{WIDTH:.0}V{tall:.1}H0Z\"/></g>",
             hex(colors::WALL),
-            places.outline()
+            placing.outline()
         );
     }
     let below = HEAD + tall + 18.0;
@@ -111,9 +111,9 @@ impl Placing<'_> {
     /// The outline of the solids within the domain as a path.
     fn outline(&self) -> String {
         let bounds = &self.maps.grid.bounds;
-        let place = |x: Vec2| {
-            let share = (x - bounds.min).component_div(&bounds.size());
-            [WIDTH * share.x, self.tall * (1.0 - share.y)]
+        let pixel = |x: Vec2| {
+            let fraction = (x - bounds.min).component_div(&bounds.size());
+            [WIDTH * fraction.x, self.tall * (1.0 - fraction.y)]
         };
         let slack = 1.0e-9 * bounds.size().max();
         let is_inside = |x: &Vec2| bounds.grown(slack).contains(*x);
@@ -121,12 +121,12 @@ impl Placing<'_> {
         for line in &self.maps.outline.lines {
             let mut pen_is_down = false;
             for x in line.iter().filter_map(|&i| self.maps.outline.points.get(i as usize)) {
-                let [left, top] = place(*x);
-                let is_seen = is_inside(x);
-                if is_seen {
+                let [left, top] = pixel(*x);
+                let is_visible = is_inside(x);
+                if is_visible {
                     let _ = write!(path, "{}{left:.1} {top:.1}", if pen_is_down { "L" } else { "M" });
                 }
-                pen_is_down = is_seen;
+                pen_is_down = is_visible;
             }
         }
         path

@@ -72,8 +72,8 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
         return Err(CompareError::OtherGeometry(misfit));
     }
     if pair.network.depth != pair.direct.depth {
-        let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
-        let misfit = format!("the network has {}, and the direct simulation {}", told(pair.network), told(pair.direct));
+        let text = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
+        let misfit = format!("the network has {}, and the direct simulation {}", text(pair.network), text(pair.direct));
         return Err(CompareError::OtherGeometry(misfit));
     }
     if let Some((side, misfit)) = state.misfit_of_sides(&sph.sides) {

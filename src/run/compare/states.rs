@@ -135,9 +135,9 @@ mod tests {
             // A second record of one time is ignored.
             states.add(k as f64, record(0.5, [false; 4])).unwrap();
         }
-        let told = |states: States| states.records().into_iter().map(|it| (it.saturation, it.invaded)).collect();
+        let content = |states: States| states.records().into_iter().map(|it| (it.saturation, it.invaded)).collect();
         let expected: Vec<_> = all.iter().map(|it| (it.saturation, it.invaded.clone())).collect();
-        let read: Vec<(f64, Vec<bool>)> = told(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
+        let read: Vec<(f64, Vec<bool>)> = content(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
         assert_eq!(read, expected);
         // A killed run left a later state, and a truncated one.
         let path = folder.path().join(STATES);
@@ -145,7 +145,7 @@ mod tests {
         let mut states = States::up_to(1.0, folder.path(), &grid(4)).unwrap();
         states.add(2.0, all[2].clone()).unwrap();
         drop(states);
-        let read: Vec<(f64, Vec<bool>)> = told(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
+        let read: Vec<(f64, Vec<bool>)> = content(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
         assert_eq!(read, expected);
         let error = States::up_to(9.0, folder.path(), &grid(5)).unwrap_err().to_string();
         assert!(error.contains("expected 5 cells in each state, found 4"), "{error}");

@@ -54,8 +54,8 @@ impl Grid {
     }
 
     pub(crate) fn middle(&self, cell: usize) -> Vec2 {
-        let place = Vec2::new((cell % self.counts[0]) as f64 + 0.5, (cell / self.counts[0]) as f64 + 0.5);
-        self.bounds.min + self.cell().component_mul(&place)
+        let coordinates = Vec2::new((cell % self.counts[0]) as f64 + 0.5, (cell / self.counts[0]) as f64 + 0.5);
+        self.bounds.min + self.cell().component_mul(&coordinates)
     }
 
     /// Width and height of a cell in m.

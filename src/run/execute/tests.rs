@@ -193,7 +193,7 @@ fn a_folder_with_files_in_it_is_refused_with_three_ways_out() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("thesis.tex"), "").unwrap();
     let message = run(&case(), folder.path(), Mode::New).unwrap_err().to_string();
-    assert!(["--out", "--resume", "delete"].iter().all(|way| message.contains(way)), "{message}");
+    assert!(["--out", "--resume", "delete"].iter().all(|remedy| message.contains(remedy)), "{message}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 

@@ -37,7 +37,9 @@ struct Level {
 impl Level {
     /// The quantiles; infinite ones are NaN.
     fn quantiles(&self) -> [f64; 5] {
-        SHARES.map(|share| Some(quantile(&self.pressures, share)).filter(|it| it.is_finite()).unwrap_or(f64::NAN))
+        SHARES.map(|probability| {
+            Some(quantile(&self.pressures, probability)).filter(|it| it.is_finite()).unwrap_or(f64::NAN)
+        })
     }
 
     /// Fraction of the samples that have a pressure.
@@ -104,9 +106,9 @@ pub(crate) fn write(
             }
         }
         if map.len() > 0 {
-            let share =
+            let invaded_fraction =
                 |part: usize| kept.iter().filter(|kept| kept.is_invaded(part)).count() as f64 / kept.len() as f64;
-            let probability: Vec<f64> = (0..map.len()).map(share).collect();
+            let probability: Vec<f64> = (0..map.len()).map(invaded_fraction).collect();
             let values = if group.name.is_empty() { String::new() } else { format!(", {}", group.name) };
             let note = format!("{}, {} samples{values}", map.moment(), kept.len());
             map.write(folder, &suffix, &probability, (&study.title, note))?;
@@ -173,12 +175,12 @@ fn diagram(processes: &[&'static str], halves: &[Vec<Level>]) -> Diagram {
         let name = if processes.len() > 2 { format!("{process} {}", half / 2 + 1) } else { (*process).to_owned() };
         let quantiles: Vec<(f64, [f64; 5])> =
             levels.iter().map(|level| (level.saturation, level.quantiles())).collect();
-        for ([low, high], share) in [([0, 4], "90 %"), ([1, 3], "50 %")] {
+        for ([low, high], percentage) in [([0, 4], "90 %"), ([1, 3], "50 %")] {
             let both = quantiles.iter().filter(|(_, q)| q[low].is_finite() && q[high].is_finite());
             let forth = both.clone().map(|(saturation, q)| [*saturation, q[low]]);
             let back = both.rev().map(|(saturation, q)| [*saturation, q[high]]);
             let points: Vec<[f64; 2]> = forth.chain(back).collect();
-            traces.push(Trace { name: format!("{name}, {share} of the samples"), stroke: Stroke::Band, points });
+            traces.push(Trace { name: format!("{name}, {percentage} of the samples"), stroke: Stroke::Band, points });
         }
         let points = quantiles.iter().map(|(saturation, q)| [*saturation, q[2]]).collect();
         traces.push(Trace { name: format!("{name}, median"), stroke: Stroke::Full, points });

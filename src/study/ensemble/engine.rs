@@ -91,7 +91,7 @@ impl<'a> Engine<'a> {
         self.ensemble.groups.iter().map(|group| of_group(group.first)).collect()
     }
 
-    /// Runs all unfinished samples. Finished ones are saved every few seconds, and at an interrupt; `told` is called with the number of samples that have
+    /// Runs all unfinished samples. Finished ones are saved every few seconds, and at an interrupt; `progress` is called with the number of samples that have
     /// ended.
     ///
     /// # Errors
@@ -101,7 +101,7 @@ impl<'a> Engine<'a> {
         maps: &[Map],
         folder: &StudyFolder,
         interrupt: &AtomicBool,
-        told: &mut dyn FnMut(usize),
+        progress: &mut dyn FnMut(usize),
     ) -> Result<(), EnsembleError> {
         let open = |done: &Option<Done>| done.as_ref().is_none_or(|done| done.ended.is_err());
         let todo: Vec<usize> = (0..self.done.len()).filter(|&index| open(&self.done[index])).collect();
@@ -117,7 +117,7 @@ impl<'a> Engine<'a> {
             if last_save.elapsed() > BETWEEN_SAVES {
                 store::save(folder.root(), &self.done)?;
                 last_save = Instant::now();
-                told(self.count());
+                progress(self.count());
             }
         }
         Ok(store::save(folder.root(), &self.done)?)

@@ -81,14 +81,14 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
             ensemble.groups.len() - 1
         });
         let shapes = case.geometry.digest();
-        let whole = (!shapes_vary).then(|| case.clone());
+        let complete = (!shapes_vary).then(|| case.clone());
         case.geometry.shapes = Vec::new();
         let own = digest(&case, shapes);
-        let known = whole.map(|whole| {
-            let key = (shapes, shared_by(&whole));
+        let known = complete.map(|complete| {
+            let key = (shapes, shared_by(&complete));
             let ground = keys.iter().position(|other| *other == key).unwrap_or_else(|| {
                 keys.push(key);
-                ensemble.grounds.push(whole);
+                ensemble.grounds.push(complete);
                 keys.len() - 1
             });
             (case, ground)

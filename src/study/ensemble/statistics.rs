@@ -119,7 +119,7 @@ pub(crate) fn statistics(study: &Study, results: &[RunResult]) -> Option<Statist
             count: values.len(),
             mean: mean(&values),
             deviation: deviation(&values),
-            quantiles: SHARES.map(|share| quantile(&values, share)),
+            quantiles: SHARES.map(|probability| quantile(&values, probability)),
         });
     }
     let indices = sampling.indices.then(|| indices(sampling, &groups, &names, full));
@@ -253,8 +253,8 @@ mod tests {
         let study = study(text);
         let results = complete(&study, |run| if run.index == 1 { f64::NAN } else { run.index as f64 });
         let found = statistics(&study, &results).unwrap();
-        let told: Vec<[&str; 3]> = found.quantiles.rows.iter().map(|row| [0, 1, 3].map(|k| row[k].as_str())).collect();
-        assert_eq!(told, [["c = 1", "m", "7"], ["c = 2", "m", "8"]]);
+        let cells: Vec<[&str; 3]> = found.quantiles.rows.iter().map(|row| [0, 1, 3].map(|k| row[k].as_str())).collect();
+        assert_eq!(cells, [["c = 1", "m", "7"], ["c = 2", "m", "8"]]);
         assert!(found.indices.is_none());
     }
 }

@@ -25,13 +25,13 @@ pub(super) enum Matrix {
 pub(super) type Row = (Matrix, Vec<f64>);
 
 /// The coordinate of a point of the sequence in a dimension.
-fn share(point: usize, dimension: usize, seed: u32) -> f64 {
+fn coordinate(point: usize, dimension: usize, seed: u32) -> f64 {
     f64::from(sample(point as u32, dimension as u32, seed)) + HALF_A_STEP
 }
 
 /// `count` independent samples of `inputs` inputs.
 pub(super) fn plain(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
-    (0..count).map(|point| (Matrix::A, (0..inputs).map(|k| share(point, k, seed)).collect())).collect()
+    (0..count).map(|point| (Matrix::A, (0..inputs).map(|k| coordinate(point, k, seed)).collect())).collect()
 }
 
 /// The rows for Sobol indices (Saltelli et al. 2010): for each sample one of A, one of B, and one of A with the column of B for each input. Samples follow one
@@ -39,7 +39,7 @@ pub(super) fn plain(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
 pub(super) fn saltelli(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     let rows = |point: usize| {
         let [a, b] =
-            [0, inputs].map(|first| (first..first + inputs).map(|k| share(point, k, seed)).collect::<Vec<_>>());
+            [0, inputs].map(|first| (first..first + inputs).map(|k| coordinate(point, k, seed)).collect::<Vec<_>>());
         let mixed = |k: usize| {
             let mut row = a.clone();
             row[k] = b[k];
@@ -52,9 +52,10 @@ pub(super) fn saltelli(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
 }
 
 /// Correlates the probabilities by a Gaussian copula with the lower triangular `factor`.
-pub(super) fn correlated(shares: &[f64], factor: &DMatrix<f64>) -> Vec<f64> {
+pub(super) fn correlated(probabilities: &[f64], factor: &DMatrix<f64>) -> Vec<f64> {
     let normal = Normal::standard();
-    let independent = DVector::from_iterator(shares.len(), shares.iter().map(|share| normal.inverse_cdf(*share)));
+    let independent =
+        DVector::from_iterator(probabilities.len(), probabilities.iter().map(|it| normal.inverse_cdf(*it)));
     (factor * independent).iter().map(|value| normal.cdf(*value)).collect()
 }
 
@@ -96,7 +97,7 @@ mod tests {
         let normal = Normal::standard();
         let rows: Vec<Vec<f64>> = plain(4096, 2, 3)
             .iter()
-            .map(|(_, row)| correlated(row, &factor).iter().map(|share| normal.inverse_cdf(*share)).collect())
+            .map(|(_, row)| correlated(row, &factor).iter().map(|it| normal.inverse_cdf(*it)).collect())
             .collect();
         let mean = |of: &dyn Fn(&Vec<f64>) -> f64| rows.iter().map(of).sum::<f64>() / rows.len() as f64;
         for k in 0..2 {

@@ -61,13 +61,13 @@ impl Distribution {
         }
     }
 
-    /// The quantile at `share`, between 0 and 1.
-    pub(super) fn quantile(&self, share: f64) -> f64 {
+    /// The quantile at `probability`, between 0 and 1.
+    pub(super) fn quantile(&self, probability: f64) -> f64 {
         match self {
-            Self::Normal(normal, [low, high]) => normal.inverse_cdf(low + (high - low) * share),
-            Self::Lognormal(lognormal) => lognormal.inverse_cdf(share),
-            Self::Uniform(uniform) => uniform.inverse_cdf(share),
-            Self::Triangular(triangular) => triangular.inverse_cdf(share),
+            Self::Normal(normal, [low, high]) => normal.inverse_cdf(low + (high - low) * probability),
+            Self::Lognormal(lognormal) => lognormal.inverse_cdf(probability),
+            Self::Uniform(uniform) => uniform.inverse_cdf(probability),
+            Self::Triangular(triangular) => triangular.inverse_cdf(probability),
         }
     }
 }
