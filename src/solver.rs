@@ -309,7 +309,6 @@ pub trait Solver {
     /// The final results; `series` holds all rows recorded so far.
     fn measures(&self, series: &Series) -> Vec<Measure>;
 
-    /// What a reader must know before trusting the measures: what is not resolved now, what is outside the validity of the model; `series` as for
     /// What a reader must know before trusting the measures, such as unresolved parts or a limit of the model; `series` as in [`measures`](Self::measures).
     fn warnings(&self, _series: &Series) -> Vec<String> {
         Vec::new()

@@ -25,8 +25,7 @@ pub(crate) struct CoupleArguments {
     /// Case file with [sph] and two fluids, of the same geometry, an inlet with a pressure and an outlet, which starts from [sph.initial] network = "..."; the
     /// state and the pressure are set by this command
     pub(crate) direct: PathBuf,
-    /// The avalanche of the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (the pore of this number in
-    /// pores.csv is invaded)
+    /// Avalanche for the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (pore N of pores.csv is invaded)
     #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
     pub(crate) event: Wanted,
     /// Excess over the pressure of the event, relative to it; with a depth, relative to the part due to the in-plane curvature

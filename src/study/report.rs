@@ -113,8 +113,7 @@ fn uncertainty<'f>(
     Ok(Some(Uncertainty { statistics, distribution, figures }))
 }
 
-/// Writes the same for runs with known states, with `figures` of an ensemble; with samples, `samples.csv` instead of `table.csv`, and tables of their
-/// statistics.
+/// The same for runs with known states and `figures` of an ensemble; with samples, `samples.csv` replaces `table.csv`, with tables of statistics.
 pub(crate) fn report_of(
     study: &Study,
     results: Vec<RunResult>,

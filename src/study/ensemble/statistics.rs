@@ -1,5 +1,4 @@
-//! Statistics of the samples of a study for each measure: moments and quantiles, Sobol indices, and the convergence of the estimates with the number of
-//! samples.
+//! Statistics of the samples of a study for each measure: moments, quantiles, Sobol indices, and their convergence with the number of samples.
 
 use super::plan::name_of_group;
 use crate::analysis::samples::{deviation, mean, quantile, sobol_indices};
