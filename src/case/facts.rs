@@ -70,7 +70,7 @@ fn regions(case: &Case, sph: &Sph, facts: &Facts) -> Vec<Problem> {
         message: if in_domain[index] {
             "the initial shape lies wholly inside the solid".to_owned()
         } else {
-            format!("the initial shape holds no particle of the domain at a spacing of {:e} m", sph.spacing)
+            format!("the initial shape contains no particle of the domain at a spacing of {:e} m", sph.spacing)
         },
         help: "move it into the pore, or make it larger".to_owned(),
     })

@@ -220,7 +220,7 @@ fn of_film(film: &ThinFilm) -> [Offer; 7] {
         Offer::new(FILM_REST, "one partially wetting droplet of the geometric equation", is_known),
         Offer::new(
             FILM_COX_VOINOV,
-            "[thin-film.wetting.partial] where no droplet rests as a parabola",
+            "[thin-film.wetting.partial] where the droplet at rest is not a parabola",
             has_angle && !film.rests_as_cap(),
         ),
         Offer::new(

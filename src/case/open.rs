@@ -210,7 +210,7 @@ fn parabola(checker: &mut Checker, side: usize, kinds: [Side; 4]) {
         checker.refuse(
             format!("{}.profile", at(SIDES[side])),
             "a parabola needs a wall at one end at least",
-            "use profile = \"plug\", or close the sides beside it",
+            "use profile = \"plug\", or close the adjacent sides",
         );
     }
 }

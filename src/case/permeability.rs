@@ -17,7 +17,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
         checker.refuse(
             "sph.phases.non-wetting",
             "a permeability is that of one fluid, and there are two: their interface moves or holds them back",
-            "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] beside a frozen interface",
+            "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] with a frozen interface",
         );
     }
     if sph.measure.cylinder_array || sph.measure.poiseuille {
@@ -112,7 +112,7 @@ pub(super) fn records(
         checker.refuse(
             "time.steady",
             "sph.gravity turns from x to y at half the time, and a run that ends before has no second column",
-            "leave this out; unsteady-share-x and unsteady-share-y tell how steady both flows are",
+            "leave this out; unsteady-share-x and unsteady-share-y show how steady both flows are",
         );
     }
     few_records(checker, output, end / forces, "under each force");

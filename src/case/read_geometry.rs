@@ -132,11 +132,11 @@ impl From<InputError> for NotRead {
 }
 
 /// Where a missing shape file is expected.
-const BESIDE: &str = "the shape file is looked for beside the case file";
+const RELATIVE: &str = "its path is relative to the case file";
 
 fn shapes_at(path: &Path, options: &Options, sources: &mut Vec<PathBuf>) -> Result<Imported, NotRead> {
     sources.push(path.to_path_buf());
-    read_shapes(path, options, BESIDE)
+    read_shapes(path, options, RELATIVE)
 }
 
 /// The shapes of a file; `help` is the remedy if it does not exist.

@@ -32,7 +32,7 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
             checker.refuse(
                 "time",
                 "a quasi-static displacement has no time: its clock is the displaced pore volume",
-                "leave out [time]; the displacement ends by itself, or where [network.stop] says; [network.dynamic] makes it one in time",
+                "leave out [time]; the displacement ends when it is complete, or by [network.stop]; [network.dynamic] makes it time-dependent",
             );
         }
         let Some(Model::Network(network)) = model else { return None };

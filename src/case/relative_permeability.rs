@@ -84,7 +84,7 @@ pub(super) fn records(
         checker.refuse(
             "time.steady",
             "three flows follow one another, and a run that ends before has no relative permeability",
-            "leave this out; unsteady-share tells how steady the flows are",
+            "leave this out; unsteady-share shows how steady the flows are",
         );
     }
     few_records(checker, output, end / FLOWS, "of each of the three flows");

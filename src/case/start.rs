@@ -47,7 +47,7 @@ pub(super) fn start(
                 std::io::ErrorKind::NotFound => format!("there is no file {}", path.display()),
                 _ => format!("{} cannot be read: {error}", path.display()),
             };
-            checker.refuse(key, what, format!("{WRITE}; it is looked for beside the case file"));
+            checker.refuse(key, what, format!("{WRITE}; its path is relative to the case file"));
             return None;
         }
     };

@@ -51,7 +51,7 @@ pub fn main() -> ExitCode {
 /// The exit code, unless results that should have been printed are lost.
 fn all_printed(code: u8) -> u8 {
     let Some(error) = output::not_printed() else { return code };
-    let what = format!("cannot print the results: {error}; print them to another place");
+    let what = format!("cannot print the results: {error}; write them somewhere else");
     complain(Failure::new(USAGE, &what).message);
     if code == DONE { USAGE } else { code }
 }

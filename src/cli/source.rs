@@ -106,12 +106,12 @@ pub(crate) fn load_shapes(
     at("reading and checking the shapes");
     let is_case = is_case_file(path);
     if is_case && *options != Options::default() {
-        let message = "a case says itself how its drawing is read: set the keys of its [geometry]";
+        let message = "a case has its own import options: set the keys of its [geometry]";
         return Err(Failure::new(USAGE, &message));
     }
     let (geometry, spec, depth) = match (is_case, periodic) {
         (true, Some(_)) => {
-            let message = "a case says itself which of its sides are periodic: leave out --periodic";
+            let message = "a case has its own periodic sides: leave out --periodic";
             return Err(Failure::new(USAGE, &message));
         }
         (true, None) => {

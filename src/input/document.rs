@@ -99,7 +99,7 @@ impl Document {
             let help = match message {
                 _ if in_brackets => "is a bracket left open here or above?",
                 _ if message.contains("must be quoted") => {
-                    "texts stand in quotes; numbers have no unit and a point before decimals"
+                    "texts need quotes; numbers have no unit and a decimal point"
                 }
                 _ => "",
             };

@@ -56,7 +56,7 @@ impl Override {
         };
         let steps = path::parse(key.trim()).filter(|steps| !steps.is_empty()).ok_or((
             format!("`{}` is not a key path", shortened(key, LONGEST_WORD)),
-            "names with points between them and places in arrays in brackets, as in geometry.shapes[0].disc.radius",
+            "names separated by dots, with array indices in brackets, as in geometry.shapes[0].disc.radius",
         ))?;
         let line = toml_line(value).map_err(|message| (message, "write the value as in the file, in TOML"))?;
         Ok(Self { text: text.to_owned(), steps, key_length: key.len(), line })

@@ -35,7 +35,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// A file was read but has unexpected content.
-    #[error("{} does not hold what it should: {what}", path.display())]
+    #[error("{} has unexpected content: {what}", path.display())]
     Content {
         /// The file.
         path: PathBuf,

@@ -220,7 +220,7 @@ pub const STEADY_AT: &str = "steady-at-s";
 pub(crate) fn steady_reading(steady: &Steadiness) -> (String, Reading) {
     let method = match (steady.at_s, steady.quantities.is_empty()) {
         (Some(_), _) => format!("first record that ends three windows of {:.3e} s without a change", steady.window_s),
-        (None, true) => "the run was too short to tell: a window holds too few records".to_owned(),
+        (None, true) => "the run was too short to decide: a window has too few records".to_owned(),
         (None, false) => format!("not steady by the end: {}", steady.unsettled()),
     };
     (

@@ -107,7 +107,7 @@ fn column_of(checker: &mut Checker, raw: &RawColumn, at: &str) -> Option<Column>
         }
         (values, _) => {
             let found = if values.is_some() { "both" } else { "neither" };
-            let help = "values = [1.0, 2.0]; a `distribution` stands beside the `key` of an axis";
+            let help = "values = [1.0, 2.0]; a `distribution` belongs next to the `key` of an axis";
             checker.refuse(at, format!("expected `values` or `range`, found {found}"), help);
             return None;
         }
@@ -182,7 +182,7 @@ fn rounded(number: f64) -> f64 {
 fn table(checker: &mut Checker, raw: &RawAxis, at: &str, folder: &Path) -> Option<Vec<Column>> {
     let at_table = format!("{at}.table");
     let path = folder.join(raw.table.as_deref()?);
-    let text = match read(&path, "the file is looked for beside the study file") {
+    let text = match read(&path, "its path is relative to the study file") {
         Ok(text) => text,
         Err(error) => {
             error.mistakes.iter().for_each(|m| checker.refuse(&at_table, m.message.clone(), m.help_text()));

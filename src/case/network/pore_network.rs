@@ -81,7 +81,7 @@ pub(in crate::case) fn network(
     if raw.dynamic.is_some() && raw.measured_throats.is_some() {
         checker.refuse(
             "network.measured",
-            "a displacement in time follows menisci through throats by the formula, and knows no measured pressures",
+            "a displacement in time uses the entry pressures of the formula, not measured ones",
             "leave it out, or leave out [network.dynamic]",
         );
     }
