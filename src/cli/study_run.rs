@@ -55,8 +55,8 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let memory = arguments.memory.map(|mebibytes| mebibytes.saturating_mul(BYTES_PER_MEBIBYTE)).or_else(free_memory);
     let Opened { runs, folder, program, .. } = opened;
     let job = Work { runs, estimates: &estimates, folder, program, cores, memory, interrupt: &flag };
-    let mut teller = Teller { count: runs.len(), ended: 0 };
-    let ends = work(&job, &mut |event| teller.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
+    let mut printer = ProgressPrinter { count: runs.len(), ended: 0 };
+    let ends = work(&job, &mut |event| printer.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
     if flag.load(Ordering::Relaxed) {
         tell("interrupted; the same command goes on");
         return Ok(INTERRUPTED);
@@ -72,12 +72,12 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
 }
 
 /// Prints the progress of the study.
-struct Teller {
+struct ProgressPrinter {
     count: usize,
     ended: usize,
 }
 
-impl Teller {
+impl ProgressPrinter {
     fn tell(&mut self, event: &Event<'_>) {
         match event {
             Event::Started(run) => tell(format_args!("run {} of {}, {}: begun", run.index, self.count, run.name)),
