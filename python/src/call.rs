@@ -1,4 +1,4 @@
-//! A call from Python: the work goes on in threads of its own, without the interpreter's lock, while the thread that called looks after signals and progress.
+//! A call from Python: the work runs in its own threads without the interpreter's lock, while the calling thread handles signals and progress.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
@@ -13,41 +13,41 @@ use rayon::ThreadPoolBuilder;
 use crate::data::Data;
 use crate::fields;
 
-/// Time between two looks at signals.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
-/// Looks between two calls of the progress function.
-const LOOKS_PER_REPORT: u32 = 5;
+/// Polling interval for signals.
+const POLLING_INTERVAL: Duration = Duration::from_millis(20);
+/// Polls between two calls of the progress function.
+const POLLS_PER_REPORT: u32 = 5;
 
-/// Where the work stands: a share of it, and a text.
+/// Progress of the work: the fraction done, and a text.
 type Standing = Mutex<Option<(f64, String)>>;
 
-/// Runs that are going on in this process, by the name that they were given.
+/// Runs in progress in this process, by token.
 static GOING_ON: Mutex<Vec<(String, Arc<AtomicBool>)>> = Mutex::new(Vec::new());
 
-/// How a call is made.
+/// Settings of a call.
 pub(crate) struct Call {
-    /// Number of threads; all cores where there is none.
+    /// Number of threads; all cores if `None`.
     pub(crate) threads: Option<usize>,
-    /// A function of a share from 0 to 1 and a text.
+    /// Progress function of a fraction from 0 to 1 and a text.
     pub(crate) progress: Option<Py<PyAny>>,
-    /// A name by which [`stop`] finds it.
+    /// Name by which [`stop`] finds the call.
     pub(crate) token: Option<String>,
 }
 
-/// What the work sees of its call.
+/// The call as its work has it.
 pub(crate) struct Work<'a> {
-    /// Set where the work is to stop.
+    /// Set when the work is to stop.
     pub(crate) interrupt: &'a AtomicBool,
     standing: &'a Standing,
 }
 
 impl Work<'_> {
-    /// Tells where the work stands.
-    pub(crate) fn tell(&self, share: f64, text: impl FnOnce() -> String) {
+    /// Reports progress.
+    pub(crate) fn tell(&self, fraction: f64, text: impl FnOnce() -> String) {
         let mut standing = self.standing.lock().unwrap_or_else(PoisonError::into_inner);
-        // A text that nobody asked for is not made.
+        // The text is only made if somebody listens.
         if standing.is_none() {
-            *standing = Some((share, text()));
+            *standing = Some((fraction, text()));
         }
     }
 
@@ -57,13 +57,13 @@ impl Work<'_> {
     }
 }
 
-/// Asks the calls of a name to stop.
+/// Requests the calls with this token to stop.
 pub(crate) fn stop(token: &str) {
     let going_on = GOING_ON.lock().unwrap_or_else(PoisonError::into_inner);
     going_on.iter().filter(|(name, _)| name == token).for_each(|(_, flag)| flag.store(true, Ordering::Relaxed));
 }
 
-/// The right to be found by [`stop`].
+/// Registration of a call for [`stop`]; ends when dropped.
 struct Registered(Arc<AtomicBool>);
 
 impl Registered {
@@ -83,19 +83,19 @@ impl Drop for Registered {
     }
 }
 
-/// Cores of this machine that this process may use.
+/// Cores of this machine available to this process.
 fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Does the work in a pool of threads that ends with it: none is left that a process which is copied from this one would miss.
+/// Does the work in a pool of threads that ends with it: a fork of this process must not miss threads of a pool.
 ///
 /// # Errors
-/// What a signal or the progress function raises, when the work has stopped.
+/// Whatever a signal or the progress function raises, after the work has stopped.
 pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<'_>) -> T + Send) -> PyResult<T> {
     let Call { threads, progress, token } = call;
-    let asked = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|threads| *threads > 0);
-    let threads = threads.or_else(asked).map_or_else(cores, |threads: usize| threads.min(cores()));
+    let requested = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|threads| *threads > 0);
+    let threads = threads.or_else(requested).map_or_else(cores, |threads: usize| threads.min(cores()));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(format!("cannot start {threads} threads: {error}")))?;
     let (standing, registered) = (Standing::default(), Registered::new(token));
@@ -109,18 +109,18 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
                 // The receiver lives as long as this scope.
                 let _ = done.send(work(work_of));
             });
-            let (mut raised, mut looks) = (None, 0);
+            let (mut raised, mut polls) = (None, 0);
             loop {
-                match is_done.recv_timeout(BETWEEN_LOOKS) {
+                match is_done.recv_timeout(POLLING_INTERVAL) {
                     Ok(found) => return (Some(found), raised),
-                    // It panicked: the scope passes that on.
+                    // It panicked: the scope propagates that.
                     Err(mpsc::RecvTimeoutError::Disconnected) => return (None, raised),
                     Err(mpsc::RecvTimeoutError::Timeout) => {}
                 }
-                looks += 1;
-                let is_due = looks % LOOKS_PER_REPORT == 0;
+                polls += 1;
+                let is_due = polls % POLLS_PER_REPORT == 0;
                 if raised.is_none()
-                    && let Err(error) = Python::attach(|py| look(py, progress.as_ref().filter(|_| is_due), &standing))
+                    && let Err(error) = Python::attach(|py| poll(py, progress.as_ref().filter(|_| is_due), &standing))
                 {
                     registered.0.store(true, Ordering::Relaxed);
                     raised = Some(error);
@@ -137,26 +137,26 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
     found.ok_or_else(|| PyRuntimeError::new_err("the work ended without a result"))
 }
 
-/// Lets Python handle signals, and tells where the work stands.
-fn look(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
+/// Lets Python handle signals, and reports progress.
+fn poll(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
     py.check_signals()?;
     if let Some(progress) = progress {
-        let told = standing.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some((share, text)) = told {
-            progress.call1(py, (share, text))?;
+        let latest = standing.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some((fraction, text)) = latest {
+            progress.call1(py, (fraction, text))?;
         }
     }
     Ok(())
 }
 
-/// Watches a run for a call, and keeps its frames where they are asked for.
+/// Observes a run for a call, and keeps its frames if requested.
 pub(crate) struct Observer<'a> {
     work: &'a Work<'a>,
     frames: Option<Vec<Data>>,
 }
 
 impl<'a> Observer<'a> {
-    /// One that keeps the frames or does not.
+    /// An observer that keeps the frames or not.
     pub(crate) fn new(work: &'a Work<'a>, keeps_frames: bool) -> Self {
         Self { work, frames: keeps_frames.then(Vec::new) }
     }

@@ -1,15 +1,15 @@
-//! Numbers and texts on their way to Python: made without the interpreter's lock, handed over as bytes that numpy takes as they are.
+//! Data for Python: made without the interpreter's lock, handed over as bytes that numpy can read directly.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict, PyList, PyString};
 
-/// What is handed over.
+/// A value to hand over.
 pub(crate) enum Data {
-    /// Numbers in rows of so many.
+    /// Floats in rows of the given length.
     Floats(Vec<f64>, usize),
-    /// Whole numbers in rows of so many.
+    /// Integers in rows of the given length.
     Integers(Vec<i64>, usize),
-    /// Yes or no.
+    /// Booleans.
     Flags(Vec<bool>),
     /// Words, one per row.
     Words(Vec<&'static str>),
@@ -17,11 +17,11 @@ pub(crate) enum Data {
     Text(String),
     /// A number.
     Number(f64),
-    /// By name.
+    /// Values by name.
     Group(Vec<(String, Data)>),
-    /// In a row.
+    /// A list.
     List(Vec<Data>),
-    /// Nothing.
+    /// `None`.
     Absent,
 }
 
@@ -36,7 +36,7 @@ impl Data {
         Self::Text(text.to_owned())
     }
 
-    /// As Python has it: an array is a tuple of its type, the length of its rows and its bytes.
+    /// The Python object: an array is a tuple of its type, the length of its rows and its bytes.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         Ok(match self {
             Self::Floats(values, columns) => array(py, "f8", columns, &values, |value| value.to_ne_bytes())?,
@@ -72,8 +72,8 @@ fn array<'py, T: Copy, const N: usize>(
     bytes_of: impl Fn(T) -> [u8; N],
 ) -> PyResult<Bound<'py, PyAny>> {
     let bytes = PyByteArray::new_with(py, values.len() * N, |bytes| {
-        for (place, value) in bytes.chunks_exact_mut(N).zip(values) {
-            place.copy_from_slice(&bytes_of(*value));
+        for (slot, value) in bytes.chunks_exact_mut(N).zip(values) {
+            slot.copy_from_slice(&bytes_of(*value));
         }
         Ok(())
     })?;

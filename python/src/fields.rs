@@ -1,4 +1,4 @@
-//! What a solver shows, as data for Python, in the words and with the bits of the files that a run writes.
+//! The fields of a solver as data for Python, with the names and the exact values of the files that a run writes.
 
 use meniscus::diagram::{Diagram, Stroke};
 use meniscus::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines};
@@ -7,7 +7,7 @@ use meniscus::{Series, Snapshot, Solver, Values, Vec2};
 
 use crate::data::Data;
 
-/// The state at one time: what VTK files of that time hold.
+/// The state at one time: the content of the VTK files of that time.
 pub(crate) fn frame(time: f64, snapshot: &Snapshot<'_>, layers: &[Layer<'_>]) -> Data {
     Data::group([
         ("time", Data::Number(time)),
@@ -18,7 +18,7 @@ pub(crate) fn frame(time: f64, snapshot: &Snapshot<'_>, layers: &[Layer<'_>]) ->
     ])
 }
 
-/// All that a solver shows at its end.
+/// All output of a solver at its end.
 pub(crate) fn all(solver: &dyn Solver) -> Data {
     let mut results = solver.results();
     let mut layers = solver.layers();
@@ -39,9 +39,9 @@ pub(crate) fn all(solver: &dyn Solver) -> Data {
 
 /// The rows of the series, column by column.
 pub(crate) fn series(series: &Series) -> Data {
-    let column = |place: usize| series.rows.iter().map(|row| row[place]).collect();
+    let column = |index: usize| series.rows.iter().map(|row| row[index]).collect();
     let columns = series.columns.iter().enumerate();
-    Data::Group(columns.map(|(place, name)| (name.clone(), Data::Floats(column(place), 1))).collect())
+    Data::Group(columns.map(|(index, name)| (name.clone(), Data::Floats(column(index), 1))).collect())
 }
 
 fn points(points: &[Vec2]) -> Data {
@@ -105,14 +105,14 @@ fn layer(layer: &Layer<'_>) -> Data {
     Data::group([("kind", Data::text(kind)), ("points", points(&layer.points)), vertices, ends, values, units])
 }
 
-/// As the file has it: numbers that do not exist are NaN, absent places are -1, and minus zero is zero.
+/// As in the file: absent numbers are NaN, absent indices are -1, and minus zero is zero.
 fn table(table: &Table) -> Data {
     let number = |value: &f64| if value.is_finite() { value + 0.0 } else { f64::NAN };
     let column = |cells: &Cells| match cells {
         Cells::Numbers(values) => Data::Floats(values.iter().map(number).collect(), 1),
         Cells::Counts(values) => Data::Integers(values.iter().map(|&value| value as i64).collect(), 1),
         Cells::Places(values) => {
-            Data::Integers(values.iter().map(|value| value.map_or(-1, |place| place as i64)).collect(), 1)
+            Data::Integers(values.iter().map(|value| value.map_or(-1, |index| index as i64)).collect(), 1)
         }
         Cells::Flags(values) => Data::Flags(values.clone()),
         Cells::Words(values) => Data::Words(values.clone()),

@@ -1,4 +1,4 @@
-//! What a call is given, and the checked case of it.
+//! The input of a call, and the checked case made from it.
 
 use std::path::Path;
 
@@ -19,13 +19,13 @@ pub(crate) struct Given {
     /// A path, or a dict as JSON.
     #[pyo3(item)]
     value: String,
-    /// Changes of keys, by key, as JSON.
+    /// Overrides by key, as JSON.
     #[pyo3(item)]
     set: String,
-    /// How a drawing is read, as JSON.
+    /// Import options of a drawing, as JSON.
     #[pyo3(item)]
     import: String,
-    /// What is displaced in its network, as JSON.
+    /// Options of the displacement in its network, as JSON.
     #[pyo3(item)]
     options: String,
 }
@@ -54,7 +54,7 @@ impl Given {
         }
     }
 
-    /// The changes as the command line takes them.
+    /// The overrides as on the command line.
     fn overrides(&self) -> Result<Vec<String>, Refused> {
         Ok(table(&self.set)?.into_iter().map(|(key, value)| format!("{key}={value}")).collect())
     }
@@ -68,7 +68,7 @@ impl Given {
     }
 }
 
-/// Parameters from a dict as JSON; each that cannot be one is named in the error.
+/// Parameters from a dict as JSON; the error names each that is invalid.
 fn read<T: serde::de::DeserializeOwned>(json: &str) -> Result<T, Refused> {
     let given: serde_json::Map<String, Value> = serde_json::from_str(json).map_err(|error| refused("", &error))?;
     let alone = |(key, value): (&String, &Value)| {
@@ -87,7 +87,7 @@ fn table(json: &str) -> Result<toml::Table, Refused> {
     serde_json::from_str(json).map_err(|error| refused("", &error))
 }
 
-/// A dict as a text in TOML, in which mistakes have their places.
+/// A dict as TOML text, in which mistakes can be located.
 fn toml_of(json: &str) -> Result<String, Refused> {
     toml::to_string(&table(json)?).map_err(|error| refused("", &error))
 }
@@ -97,7 +97,7 @@ fn refused(key: &str, error: &dyn std::fmt::Display) -> Refused {
 }
 
 fn problem(key: &str, error: &dyn std::fmt::Display) -> Problem {
-    // The place in the JSON tells nothing to who wrote Python.
+    // A position in the JSON means nothing to the author of Python code.
     let text = error.to_string();
     let message = text.split(" at line ").next().unwrap_or_default().to_owned();
     Problem { path: key.to_owned(), message, help: String::new() }

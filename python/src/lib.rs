@@ -1,7 +1,7 @@
-//! The native part of the Python package `meniscus`: runs, checks and studies by the library, as the command line does them, without printing.
+//! The native part of the Python package `meniscus`: runs, checks and studies by the library, as on the command line but without printing.
 //!
-//! [`call`](mod@call) looks after threads, signals and progress, [`given`] reads what a call is given, [`fields`] shows what a solver has, and [`data`] hands it
-//! over. What stands in front of it, with types, names and help, is Python: `python/meniscus`.
+//! [`call`](mod@call) handles threads, signals and progress, [`given`] reads the input of a call, [`fields`] collects the output of a solver, and [`data`]
+//! hands it over. Types, names and help are in the Python part: `python/meniscus`.
 
 mod call;
 mod data;
@@ -32,7 +32,7 @@ use crate::refused::Refused;
 #[global_allocator]
 static ALLOCATOR: MiMalloc = MiMalloc;
 
-/// Where the files of a run go.
+/// Where the files of a run are written.
 struct Output {
     folder: PathBuf,
     mode: Mode,
@@ -100,14 +100,14 @@ fn not_run(error: &RunError) -> Refused {
     }
 }
 
-/// Tells what a run would take, as JSON; see `meniscus.check`.
+/// The estimated cost of a run, as JSON; see `meniscus.check`.
 #[pyfunction]
 fn check(py: Python<'_>, given: Given, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<String> {
     let how = Call { threads, progress, token: None };
     let found = call(py, how, |work| -> Result<String, Refused> {
         let source = given.source()?;
         let mut solver = built(work, &source, false)?;
-        let tried = &mut |share| work.tell(share, || "first steps are tried".to_owned());
+        let tried = &mut |fraction| work.tell(fraction, || "first steps are tried".to_owned());
         let checked = checked::check(&source.case, solver.as_mut(), tried);
         let checked = checked.map_err(|error| Refused::Solver(error.to_string()))?;
         checked.json().map_err(|error| Refused::Solver(error.to_string()))

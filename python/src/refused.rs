@@ -1,21 +1,21 @@
-//! Errors as Python raises them: classes of `meniscus.errors`, with the text that the program has for them.
+//! Errors as Python exceptions: classes of `meniscus.errors`, with the messages of the program.
 
 use meniscus::run::source::Refusal;
 use meniscus::{InputError, Mistake};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// What ends a call without a result.
+/// Why a call has no result.
 pub(crate) enum Refused {
-    /// Mistakes in what was given.
+    /// Mistakes in the input.
     Case(Refusal),
-    /// Mistakes in a dict, whose text as TOML this is.
+    /// Mistakes in a dict, with its text as TOML.
     Dict(InputError, String),
     /// A folder or file that cannot be used.
     Folder(String),
     /// The solver failed before there was a result.
     Solver(String),
-    /// The call was asked to stop.
+    /// The call was stopped on request.
     Stopped,
 }
 
@@ -31,8 +31,8 @@ impl From<InputError> for Refused {
     }
 }
 
-/// A mistake as Python sees it.
-struct Told {
+/// A mistake as Python shows it.
+struct PythonMistake {
     file: Option<String>,
     place: Option<(usize, usize)>,
     key: Option<String>,
@@ -40,8 +40,8 @@ struct Told {
     help: String,
 }
 
-impl Told {
-    /// A mistake of a file, or of a dict that was written as `text`.
+impl PythonMistake {
+    /// A mistake in a file, or in a dict that was written as `text`.
     fn of(mistake: &Mistake, text: Option<&str>) -> Self {
         let (message, help) = (mistake.message.clone(), mistake.help_text().to_owned());
         let set = mistake.name.strip_prefix("--set ").and_then(|set| set.split_once('='));
@@ -54,52 +54,52 @@ impl Told {
         Self { file: Some(mistake.name.clone()), place: mistake.place, key: None, message, help }
     }
 
-    /// As the program tells it: the place, the message, and below it the way out.
+    /// As the program prints it: the location, the message, and below it the remedy.
     fn text(&self) -> String {
-        let place = match (&self.file, self.place, &self.key) {
+        let location = match (&self.file, self.place, &self.key) {
             (Some(file), Some((line, column)), _) => format!("{file}:{line}:{column}: "),
             (Some(file), None, _) => format!("{file}: "),
             (None, _, Some(key)) => format!("{key}: "),
             (None, _, None) => String::new(),
         };
         let help = if self.help.is_empty() { String::new() } else { format!("\n  help: {}", self.help) };
-        format!("{place}{}{help}", self.message)
+        format!("{location}{}{help}", self.message)
     }
 
     fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-        let told = PyDict::new(py);
-        told.set_item("file", self.file)?;
-        told.set_item("line", self.place.map(|place| place.0))?;
-        told.set_item("column", self.place.map(|place| place.1))?;
-        told.set_item("key", self.key)?;
-        told.set_item("message", self.message)?;
-        told.set_item("help", self.help)?;
-        Ok(told)
+        let dict = PyDict::new(py);
+        dict.set_item("file", self.file)?;
+        dict.set_item("line", self.place.map(|location| location.0))?;
+        dict.set_item("column", self.place.map(|location| location.1))?;
+        dict.set_item("key", self.key)?;
+        dict.set_item("message", self.message)?;
+        dict.set_item("help", self.help)?;
+        Ok(dict)
     }
 }
 
-/// How a dict is called in messages of the library.
+/// Name of a dict in messages of the library.
 pub(crate) const DICT: &str = "case";
 
 impl Refused {
-    /// The error that is raised.
+    /// The exception to raise.
     pub(crate) fn into_error(self, py: Python<'_>) -> PyErr {
         let raised = match self {
             Self::Case(Refusal::Input(error)) => case_error(py, of_input(&error, None)),
             Self::Case(Refusal::Options(problems)) => {
-                let told = |problem: &meniscus::input::Problem| Told {
+                let shown = |problem: &meniscus::input::Problem| PythonMistake {
                     file: None,
                     place: None,
                     key: Some(parameter(&problem.path)).filter(|key| !key.is_empty()),
                     message: problem.message.clone(),
                     help: problem.help.clone(),
                 };
-                case_error(py, problems.iter().map(told).collect())
+                case_error(py, problems.iter().map(shown).collect())
             }
             Self::Case(Refusal::Setup(text)) => {
                 let (message, help) = text.split_once("; ").unwrap_or((&text, ""));
                 let (message, help) = (message.to_owned(), help.to_owned());
-                case_error(py, vec![Told { file: None, place: None, key: None, message, help }])
+                case_error(py, vec![PythonMistake { file: None, place: None, key: None, message, help }])
             }
             Self::Dict(error, text) => case_error(py, of_input(&error, Some(&text))),
             Self::Folder(text) => class(py, "FolderError").and_then(|class| class.call1((text,))),
@@ -110,43 +110,43 @@ impl Refused {
     }
 }
 
-fn of_input(error: &InputError, text: Option<&str>) -> Vec<Told> {
-    error.mistakes.iter().map(|mistake| Told::of(mistake, text)).collect()
+fn of_input(error: &InputError, text: Option<&str>) -> Vec<PythonMistake> {
+    error.mistakes.iter().map(|mistake| PythonMistake::of(mistake, text)).collect()
 }
 
 fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("meniscus.errors")?.getattr(name)
 }
 
-fn case_error(py: Python<'_>, told: Vec<Told>) -> PyResult<Bound<'_, PyAny>> {
-    let text = told.iter().map(Told::text).collect::<Vec<_>>().join("\n");
-    let mistakes = told.into_iter().map(|one| one.into_python(py)).collect::<PyResult<Vec<_>>>()?;
+fn case_error(py: Python<'_>, shown: Vec<PythonMistake>) -> PyResult<Bound<'_, PyAny>> {
+    let text = shown.iter().map(PythonMistake::text).collect::<Vec<_>>().join("\n");
+    let mistakes = shown.into_iter().map(|one| one.into_python(py)).collect::<PyResult<Vec<_>>>()?;
     class(py, "CaseError")?.call1((text, mistakes))
 }
 
-/// The key path at a line, from 1, of a text that was written by the TOML library: a header per table, and a key per line.
+/// The key path at a line, from 1, of a text written by the TOML library: a header per table, and a key per line.
 fn key_at(text: &str, line: usize) -> Option<String> {
     let before: Vec<&str> = text.lines().take(line).collect();
     let header = before.iter().rfind(|line| line.starts_with('['));
     let key = before.last().filter(|line| !line.starts_with('[')).and_then(|line| line.split_once(" = "));
     let mut path = String::new();
-    let mut place = String::new();
+    let mut indexed = String::new();
     for part in header.map_or("", |line| line.trim_matches(['[', ']'])).split('.').filter(|part| !part.is_empty()) {
         let dot = if path.is_empty() { "" } else { "." };
         path = format!("{path}{dot}{part}");
-        place = format!("{place}{dot}{part}");
+        indexed = format!("{indexed}{dot}{part}");
         // An element of an array has a header of its own.
         let count = before.iter().filter(|line| **line == format!("[[{path}]]")).count();
         if let Some(last) = count.checked_sub(1) {
-            place = format!("{place}[{last}]");
+            indexed = format!("{indexed}[{last}]");
         }
     }
     let parts: Vec<String> =
-        Some(place).filter(|it| !it.is_empty()).into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
+        Some(indexed).filter(|it| !it.is_empty()).into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
     (!parts.is_empty()).then(|| parts.join("."))
 }
 
-/// The parameter of `meniscus.network` that a key of a case file stands for.
+/// The parameter of `meniscus.network` that corresponds to a key of a case file.
 fn parameter(key: &str) -> String {
     match key.trim_start_matches("network.").trim_start_matches("geometry.") {
         "wetting.young.contact-angle-deg" => "angle_deg".to_owned(),

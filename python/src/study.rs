@@ -20,7 +20,7 @@ pub(crate) fn study_plan(py: Python<'_>, path: PathBuf, out: Option<PathBuf>) ->
     found.map_err(|refused| refused.into_error(py))
 }
 
-/// Does one run of a study: its status, and why it failed where it did.
+/// Does one run of a study: returns its status, and why it failed if it did.
 #[pyfunction]
 pub(crate) fn study_run(
     py: Python<'_>,
@@ -53,7 +53,7 @@ fn not_done(error: ExecuteError) -> Refused {
     }
 }
 
-/// Writes the table and the page of a study, and tells of all runs, as JSON.
+/// Writes the table and the page of a study, and returns a summary of all runs, as JSON.
 #[pyfunction]
 pub(crate) fn study_report(py: Python<'_>, path: PathBuf, out: Option<PathBuf>) -> PyResult<String> {
     let how = Call { threads: Some(1), progress: None, token: None };
@@ -64,7 +64,7 @@ pub(crate) fn study_report(py: Python<'_>, path: PathBuf, out: Option<PathBuf>) 
     found.map_err(|refused| refused.into_error(py))
 }
 
-/// Asks the runs that were begun with a token to stop.
+/// Requests the runs that were started with a token to stop.
 #[pyfunction]
 pub(crate) fn stop(token: &str) {
     call::stop(token);

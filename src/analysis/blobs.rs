@@ -1,15 +1,15 @@
-//! Disconnected parts of a phase: connected components of its particles, by union-find.
+//! Ganglia: connected components of the particles of a phase, by union-find.
 //!
-//! Two particles of the phase are joined where they are nearer than [`LINK`] spacings: more than the diagonal of the
-//! lattice (1.41), less than the next but one neighbor (2).
+//! Two particles of the phase are connected if they are nearer than [`LINK`] spacings: more than the diagonal of the lattice (1.41), less than the second
+//! neighbor (2).
 
 use super::cells::Cells;
 use crate::math::{Vec2, root};
 
-/// Largest distance of joined particles in particle spacings.
+/// Largest distance of connected particles in particle spacings.
 pub(crate) const LINK: f64 = 1.6;
 
-/// A connected part of a phase.
+/// A ganglion: a connected part of a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blob {
     /// Number of particles.
@@ -22,7 +22,7 @@ pub struct Blob {
 
 /// Connected components of the particles with `member`, largest first.
 ///
-/// `points` in m, `volumes` in m², `link` the largest distance of joined particles in m, `period` in m.
+/// `points` in m, `volumes` in m², `link` the largest distance of connected particles in m, `period` in m.
 pub(crate) fn blobs(
     points: &[Vec2],
     volumes: &[f64],
@@ -31,11 +31,11 @@ pub(crate) fn blobs(
     period: [Option<f64>; 2],
 ) -> Vec<Blob> {
     let chosen: Vec<usize> = (0..points.len()).filter(|&i| member[i]).collect();
-    let places: Vec<Vec2> = chosen.iter().map(|&i| points[i]).collect();
-    let cells = Cells::new(&places, link, period);
-    let mut parent: Vec<usize> = (0..places.len()).collect();
-    for (a, &place) in places.iter().enumerate() {
-        cells.for_each_near(place, link, |b, _| {
+    let positions: Vec<Vec2> = chosen.iter().map(|&i| points[i]).collect();
+    let cells = Cells::new(&positions, link, period);
+    let mut parent: Vec<usize> = (0..positions.len()).collect();
+    for (a, &position) in positions.iter().enumerate() {
+        cells.for_each_near(position, link, |b, _| {
             if b < a {
                 let (ra, rb) = (root(&mut parent, a), root(&mut parent, b));
                 // The lower index becomes the root, so the result depends on the particles alone.
@@ -43,8 +43,8 @@ pub(crate) fn blobs(
             }
         });
     }
-    let mut of_root: Vec<Option<Blob>> = vec![None; places.len()];
-    for i in 0..places.len() {
+    let mut of_root: Vec<Option<Blob>> = vec![None; positions.len()];
+    for i in 0..positions.len() {
         let r = root(&mut parent, i);
         let blob = of_root[r].get_or_insert(Blob { count: 0, area: 0.0, first: chosen[i] });
         blob.count += 1;

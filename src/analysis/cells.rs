@@ -1,7 +1,7 @@
-//! Neighbors of a place among scattered points, by a grid of cells with a counting sort.
+//! Neighbor search among scattered points, by a cell grid with a counting sort.
 //!
-//! The order in which neighbors come depends on the points alone, so sums over them have the same bits for any number
-//! of threads. Periodic sides are handled by nearest images. Leaves out: any ordering for cache use.
+//! The order of neighbors depends on the points alone, so sums over them have the same bits for any number of threads. Periodic sides are handled by nearest
+//! images. Points are not reordered for cache locality.
 
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ pub(crate) struct Cells<'a> {
     order: Vec<usize>,
 }
 
-/// The most cells per point: bounds the memory where few points span a large box.
+/// Largest number of cells per point: bounds the memory where few points span a large box.
 const CELLS_PER_POINT: f64 = 4.0;
 
 impl<'a> Cells<'a> {
@@ -69,7 +69,7 @@ impl<'a> Cells<'a> {
         })
     }
 
-    /// Index of the cell column of `x` along one axis; wrapped where the axis is periodic, else possibly outside.
+    /// Index of the cell column of `x` along one axis; wrapped if the axis is periodic, else possibly outside.
     fn column(&self, x: Vec2, axis: usize) -> isize {
         if self.size[axis] <= 0.0 {
             return 0;
@@ -78,7 +78,7 @@ impl<'a> Cells<'a> {
         if self.period[axis].is_some() { k.rem_euclid(self.counts[axis] as isize) } else { k }
     }
 
-    /// Vector in m from `b` to `a`, by the nearest image where a side is periodic.
+    /// Vector in m from `b` to `a`, by the nearest image if a side is periodic.
     pub(crate) fn difference(&self, a: Vec2, b: Vec2) -> Vec2 {
         nearest_image(a - b, self.period)
     }
@@ -101,7 +101,7 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// The cell columns along one axis that a disc about `x` touches, each once.
+    /// The cell columns along one axis that the disc around `x` overlaps, each once.
     fn span(&self, x: Vec2, radius: f64, axis: usize) -> impl Iterator<Item = usize> + use<> {
         let count = self.counts[axis] as isize;
         let reach =
@@ -113,7 +113,7 @@ impl<'a> Cells<'a> {
         } else if periodic {
             (middle - reach, middle + reach)
         } else {
-            // Points on the far rim are clamped into the last cell, so that it is always searched from beyond.
+            // Points on the far boundary are clamped into the last cell, so it must be searched from outside the grid, too.
             ((middle - reach).clamp(0, count - 1), (middle + reach).clamp(0, count - 1))
         };
         (first..=last).map(move |k| k.rem_euclid(count) as usize)

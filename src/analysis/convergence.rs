@@ -1,8 +1,7 @@
 //! Observed orders of convergence.
 //!
-//! Against a known reference: the slope of log error over log spacing. Without one: the order, the limit and the error
-//! estimate of Richardson's extrapolation from three spacings, the ratios of which may differ (Roache 1998), and the
-//! uncertainties that follow from it.
+//! With a known reference: the slope of log error over log spacing. Without one: the order, the limit and the error estimate by Richardson extrapolation from
+//! three spacings, the ratios of which may differ (Roache 1998), and the resulting uncertainties.
 
 use super::roots::bisect;
 
@@ -17,7 +16,7 @@ pub(crate) fn observed_order(spacings: &[f64], errors: &[f64]) -> f64 {
     xy / xx
 }
 
-/// What three spacings tell of the limit.
+/// Richardson extrapolation from three spacings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extrapolation {
     /// Observed order.
@@ -28,14 +27,14 @@ pub(crate) struct Extrapolation {
     pub(crate) finest_error: f64,
 }
 
-/// Highest order that is looked for.
+/// Upper bound of the search for the order.
 const HIGHEST_ORDER: f64 = 12.0;
-/// Lowest order that is looked for.
+/// Lower bound of the search for the order.
 const LOWEST_ORDER: f64 = 0.01;
 
-/// Richardson's extrapolation of three `values` at the `spacings`, coarse to fine.
+/// Richardson extrapolation of three `values` at the `spacings`, coarse to fine.
 ///
-/// Nothing where the values do not approach a limit monotonically: then the spacings are not in the range of convergence.
+/// `None` if the values do not approach a limit monotonically: then the spacings are outside the asymptotic range.
 pub(crate) fn extrapolate(spacings: [f64; 3], values: [f64; 3]) -> Option<Extrapolation> {
     let [h1, h2, h3] = spacings;
     let [f1, f2, f3] = values;
@@ -46,19 +45,19 @@ pub(crate) fn extrapolate(spacings: [f64; 3], values: [f64; 3]) -> Option<Extrap
     Some(Extrapolation { order, limit: f3 - finest_error, finest_error: finest_error.abs() })
 }
 
-/// The factor on an extrapolated error that covers the true one in 95 of 100 cases (Roache 1998): two standard uncertainties.
+/// The safety factor on an extrapolated error that covers the true one in 95 of 100 cases (Roache 1998): two standard uncertainties.
 const SAFETY: f64 = 1.25;
 
-/// Below this order values do not converge yet.
+/// Below this order, values do not converge yet.
 const LEAST_ORDER: f64 = 0.5;
 
-/// A higher observed order than that of the method is chance.
+/// An observed order higher than that of the method is coincidence.
 const ORDER_OF_METHOD: f64 = 2.0;
 
-/// The standard uncertainty of each value by its spacing, `spacings` from coarse to fine; nothing for fewer than three.
+/// The standard uncertainty of the value at each spacing, `spacings` from coarse to fine; `None` for fewer than three.
 ///
-/// Where the finest three converge, half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at
-/// least the distance from the finest (after Eça and Hoekstra 2014).
+/// If the finest three converge: half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at least the distance
+/// from the finest (after Eça and Hoekstra 2014).
 pub(crate) fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (spacings, values) else { return None };
     let observed = extrapolate([h1, h2, h3], [f1, f2, f3]).map(|found| found.order);
@@ -105,7 +104,7 @@ mod tests {
             let found = discretization_uncertainties(&h, &errors.map(|error| 1.0 + error)).unwrap();
             for (error, uncertainty) in errors.iter().zip(&found) {
                 assert!(2.0 * uncertainty >= 1.2 * error, "order {order}: {found:?}");
-                // Above the second order the finest is less certain than it could be.
+                // Above second order, the uncertainty of the finest is conservative.
                 assert!(order > 2.0 || 2.0 * uncertainty <= 1.3 * error, "order {order}: {found:?}");
             }
         }

@@ -1,8 +1,8 @@
-//! Measurement on particles: pure functions on points, fields and closures. No solver, no file, no geometry type.
+//! Measurements on particles: pure functions of points, fields and closures. No solver, no file, no geometry type.
 //!
-//! Particles are interpolated onto any nodes ([`resample`]) that a contour needs ([`near_level`]), by the neighbors of a place ([`cells`]); sums over particles
-//! ([`phases`]), connected parts ([`blobs`]) and parts that are not resolved ([`resolution`]). Observed orders of
-//! convergence ([`convergence`]), [`roots`] by bisection, moments, quantiles and Sobol indices of [`samples`].
+//! Interpolation of particles onto nodes ([`resample`]) near a contour ([`near_level`]), neighbor search ([`cells`]), sums over particles ([`phases`]), ganglia
+//! ([`blobs`]) and unresolved parts ([`resolution`]). Observed orders of convergence ([`convergence`]), [`roots`] by bisection; moments, quantiles and Sobol
+//! indices of [`samples`].
 
 pub(crate) mod blobs;
 pub(crate) mod cells;

@@ -1,18 +1,18 @@
-//! Where a smoothed field can cross a level: the work of a contour grows with the length of the interface, not with the area.
+//! The nodes near a level of a smoothed field: the cost of a contour grows with the length of the interface, not with the area.
 
 use super::resample::{SUPPORT, Samples};
 use crate::interface::lattice::Lattice;
 use crate::math::Vec2;
 
-/// The nodes of `lattice` that [`contour`](crate::interface::contour::contour) needs of a field smoothed from `values` of `samples`, in
-/// order: those with values on both sides of `level` near them. Elsewhere the smoothed field lies on one side, so that it may as well be missing (NaN) there.
+/// The nodes of `lattice` that [`contour`](crate::interface::contour::contour) needs of a field smoothed from `values` of `samples`, in order: those with
+/// values on both sides of `level` nearby. Elsewhere the smoothed field is on one side, so it may as well be missing (NaN).
 pub(crate) fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f64], level: f64) -> Vec<usize> {
-    /// A contour asks for nodes so many spacings from an edge that it crosses.
+    /// Distance in spacings from a crossed edge within which a contour needs nodes.
     const BESIDE_EDGES: f64 = 2.0;
     const HIGH: u8 = 1;
     const LOW: u8 = 2;
     let reach = SUPPORT * samples.smoothing_length + (BESIDE_EDGES + 1.0) * lattice.spacing.max();
-    // Squares no smaller than the reach: what is in reach of a node lies in the nine around it.
+    // Squares no smaller than the support: all particles in the support of a node lie in the nine squares around it.
     let nodes =
         [0, 1].map(|i| if lattice.periodic[i] { lattice.counts[i] } else { lattice.counts[i].saturating_sub(1) });
     let extent = [0, 1].map(|i| nodes[i] as f64 * lattice.spacing[i]);
@@ -36,8 +36,8 @@ pub(crate) fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f
         around.fold(0, |found, square| found | sides[square]) == HIGH | LOW
     };
     let both: Vec<bool> = (0..sides.len()).map(both).collect();
-    let place = |node: usize| lattice.position(node % lattice.counts[0], node / lattice.counts[0]);
-    (0..lattice.len()).filter(|&node| both[square(place(node))]).collect()
+    let position = |node: usize| lattice.position(node % lattice.counts[0], node / lattice.counts[0]);
+    (0..lattice.len()).filter(|&node| both[square(position(node))]).collect()
 }
 
 #[cfg(test)]

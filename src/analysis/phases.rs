@@ -1,6 +1,6 @@
-//! Sums over particles: areas, saturation, capillary pressure, Laplace jump, density error.
+//! Sums over particles: areas, saturation, capillary pressure, Laplace pressure jump, density error.
 //!
-//! Colors are sharp here: above 0.5 is the wetting phase. Solid particles are left out by the caller.
+//! Colors are sharp here: above 0.5 is the wetting phase. The caller leaves out solid particles.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ use crate::interface::polyline::Polyline;
 use crate::interface::wall::WallPoint;
 use crate::math::{Vec2, nearest_image};
 
-/// Areas of the phases per depth.
+/// Areas of the phases (volumes per depth).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PhaseAreas {
     /// Area of the wetting phase in m².
@@ -29,7 +29,7 @@ impl PhaseAreas {
         Self { wetting: sum(true), non_wetting: sum(false) }
     }
 
-    /// Part of the fluid's area that the wetting phase fills.
+    /// Wetting saturation: the fraction of the fluid's area.
     pub(crate) fn saturation(&self) -> f64 {
         self.wetting / (self.wetting + self.non_wetting)
     }
@@ -51,66 +51,66 @@ pub(crate) struct PressureSamples<'a> {
     pub(crate) colors: &'a [f64],
     /// Smoothing length h in m.
     pub(crate) smoothing_length: f64,
-    /// Period in m along each axis, where it has one.
+    /// Period in m along each axis, if it has one.
     pub(crate) period: [Option<f64>; 2],
 }
 
-/// Mean pressure of the non-wetting phase less that of the wetting phase.
+/// Mean pressure of the non-wetting phase minus that of the wetting phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CapillaryPressure {
-    /// p_n - p_w in Pa; NaN where a phase has no particle away from the interface.
+    /// p_n - p_w in Pa; NaN if a phase has no particle away from the interface.
     pub value: f64,
-    /// Standard error of the two means in Pa, particles counted as independent.
+    /// Standard error of the difference in Pa, particles taken as independent.
     pub standard_error: f64,
     /// Particles of the wetting and the non-wetting phase that were used.
     pub counts: [usize; 2],
-    /// Whether particles near walls could be left out too.
+    /// Whether particles near walls could be left out, too.
     pub away_from_walls: bool,
 }
 
-/// Error of a capillary pressure by the resolution, over the pressure and (hκ)², κ the curvature that the pressure belongs to. Calibrated:
+/// Discretization error of a capillary pressure, relative to the pressure and to (hκ)², where κ is the curvature of that pressure. Calibrated:
 /// docs/numerics/error-bars.md.
 pub(crate) const PRESSURE_RESOLUTION: f64 = 0.05;
 
-/// The same of a phase that hardly touches its walls, beyond an angle of [`FLAT_CONTACT`]: the smoothing at the thin gap along the wall adds to that
-/// of the interface.
+/// The same for a phase that hardly touches its walls, above an angle of [`FLAT_CONTACT`]: smoothing across the thin gap along the wall adds to that across the
+/// interface.
 pub(crate) const PRESSURE_RESOLUTION_FLAT_CONTACT: f64 = 0.14;
 
 /// Contact angle in degrees above which the gap along the wall is too thin for the smoothing.
 pub(crate) const FLAT_CONTACT: f64 = 160.0;
 
-/// What lattice and walls leave of it however fine the spacing, over the pressure.
+/// Relative error due to lattice and walls that remains at any spacing.
 pub(crate) const PRESSURE_FLOOR: f64 = 5e-4;
 
 impl CapillaryPressure {
-    /// Standard uncertainty in Pa: the scatter of the particles, and what is lost to the smoothing length `h` (m) at the `tension` (N/m).
+    /// Standard uncertainty in Pa: the scatter of the particles, and the effect of the smoothing length `h` (m) at the `tension` (N/m).
     pub(crate) fn uncertainty(&self, tension: f64, h: f64) -> f64 {
         self.standard_error.hypot(resolution_error(self.value, tension, h))
     }
 }
 
 impl CapillaryPressure {
-    /// The same where interfaces meet walls at the `angle` (degrees) through the wetting phase.
+    /// The same where interfaces meet walls at the contact `angle` (degrees), measured through the wetting phase.
     pub(crate) fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
-        let share = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
-        self.standard_error.hypot(error_of_share(share, self.value, tension, h))
+        let factor = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
+        self.standard_error.hypot(error_by_factor(factor, self.value, tension, h))
     }
 }
 
-/// The error in Pa of a capillary `pressure` (Pa) by the resolution.
+/// The discretization error in Pa of a capillary `pressure` (Pa).
 pub(crate) fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
-    error_of_share(PRESSURE_RESOLUTION, pressure, tension, h)
+    error_by_factor(PRESSURE_RESOLUTION, pressure, tension, h)
 }
 
-fn error_of_share(share: f64, pressure: f64, tension: f64, h: f64) -> f64 {
-    pressure * (share * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
+fn error_by_factor(factor: f64, pressure: f64, tension: f64, h: f64) -> f64 {
+    pressure * (factor * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
 }
 
-/// Smoothing lengths that are left out beside the interface.
+/// Width of the band left out along the interface, in smoothing lengths.
 const FROM_INTERFACE: f64 = 3.0;
-/// Smoothing lengths that are left out beside walls, where enough particles remain.
+/// Width of the band left out along walls, in smoothing lengths, if enough particles remain.
 const FROM_WALLS: f64 = 2.0;
-/// Particles of each phase below which the wall band is used as well: the error of their mean is a fifth of their scatter.
+/// Particles per phase below which the wall band is used as well: the standard error of the mean is then a fifth of the scatter.
 const ENOUGH: usize = 25;
 
 /// Capillary pressure from particles farther than 3h from `contours`, and than 2h from walls where that leaves enough.
@@ -126,7 +126,7 @@ pub(crate) fn capillary_pressure(
         .points
         .par_iter()
         .map(|&x| {
-            // Vertices stand closer than a spacing, so their distance serves for that of the line.
+            // Vertices are closer than a spacing, so their distance approximates that of the line.
             let mut near = false;
             cells.for_each_near(x, FROM_INTERFACE * h, |_, _| near = true);
             !near
@@ -155,7 +155,7 @@ fn difference_of_means(samples: &PressureSamples, used: &[bool], away_from_walls
 /// A mean with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeanValue {
-    /// Arithmetic mean, NaN of nothing.
+    /// Arithmetic mean; NaN if there are no values.
     pub(crate) mean: f64,
     /// Standard error for independent values, 0 for fewer than two.
     pub(crate) error: f64,
@@ -175,7 +175,7 @@ impl MeanValue {
     }
 }
 
-/// Laplace jump of a free drop in Pa with its standard error: mean p over r < R - 3h less mean p over r > R + 3h.
+/// Laplace pressure jump of a free drop in Pa with its standard error: mean p over r < R - 3h minus mean p over r > R + 3h.
 pub(crate) fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64) -> MeanValue {
     let band = FROM_INTERFACE * samples.smoothing_length;
     let mean = |inside: &dyn Fn(f64) -> bool| {
@@ -187,7 +187,7 @@ pub(crate) fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64)
     MeanValue { mean: inner.mean - outer.mean, error: inner.error.hypot(outer.error), count: inner.count + outer.count }
 }
 
-/// Root mean square and largest relative deviation of particle volumes from `reference` (m²): the density error.
+/// RMS and largest relative deviation of particle volumes from `reference` (m²): the density error.
 pub(crate) fn density_error(volumes: &[f64], reference: f64) -> [f64; 2] {
     let off = |v: &f64| reference / v - 1.0;
     let squares: f64 = volumes.iter().map(|v| off(v).powi(2)).sum();
@@ -220,7 +220,7 @@ mod tests {
         let (radius, h) = (0.5, 0.03);
         let points = Lattice::open(Vec2::repeat(-1.0), Vec2::repeat(0.02), [101, 101]).nodes();
         let colors: Vec<f64> = points.iter().map(|p| f64::from(p.norm() < radius)).collect();
-        // A jump of 8 Pa with a wrong band at the interface and at the floor, which must not count.
+        // A jump of 8 Pa with wrong values in the bands at the interface and at the floor, which must not count.
         let pressure = |p: &Vec2| {
             let spoiled = (p.norm() - radius).abs() < 2.9 * h || p.y < -1.0 + 1.9 * h;
             if spoiled { 100.0 } else { 8.0 * f64::from(p.norm() < radius) + 3.0 }

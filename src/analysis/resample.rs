@@ -1,8 +1,8 @@
 //! Particles to nodes: Shepard-normalized interpolation with the Wendland C2 kernel [Huber2013, Eq. 14].
 //!
-//! f(x) = sum_b V_b f_b W(x - x_b, h) / sum_b V_b W(x - x_b, h). The weights are found once and applied to any number of
-//! fields. First order near walls and voids. A color smoothed this way has its c = 0.5 contour displaced towards the
-//! center of curvature by kappa h²/7, which is 0.03 dx for a disc of ten spacings at h = 1.5 dx.
+//! f(x) = sum_b V_b f_b W(x - x_b, h) / sum_b V_b W(x - x_b, h). The weights are computed once and applied to any number of fields. First order near walls and
+//! voids. A color smoothed this way has its c = 0.5 contour displaced towards the center of curvature by kappa h²/7, which is 0.03 dx for a disc of ten
+//! spacings at h = 1.5 dx.
 
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::math::{Vec2, wendland_c2};
 /// Support of the kernel in smoothing lengths.
 pub(crate) const SUPPORT: f64 = 2.0;
 
-/// Somewhat more than the particles in reach of a node at the usual smoothing length of 1.5 spacings.
+/// Somewhat more than the particles in the support of a node at the usual smoothing length of 1.5 spacings.
 const USUAL: usize = 32;
 
 /// Particles to interpolate from.
@@ -24,12 +24,12 @@ pub struct Samples<'a> {
     pub volumes: &'a [f64],
     /// Smoothing length h in m.
     pub smoothing_length: f64,
-    /// Period in m along each axis, where it has one.
+    /// Period in m along each axis, if it has one.
     pub period: [Option<f64>; 2],
 }
 
 impl<'a> Samples<'a> {
-    /// The particles in cells, to be searched for those in reach of a node.
+    /// The particles in cells, for neighbor search around nodes.
     pub(crate) fn cells(&self) -> Cells<'a> {
         Cells::new(self.points, SUPPORT * self.smoothing_length, self.period)
     }
@@ -58,7 +58,7 @@ impl Stencils {
         Self::in_cells(samples, &samples.cells(), nodes)
     }
 
-    /// [`Stencils::new`] with the cells of the samples at hand.
+    /// [`Stencils::new`] with existing cells of the samples.
     pub(crate) fn in_cells(samples: &Samples, cells: &Cells, nodes: &[Vec2]) -> Self {
         let h = samples.smoothing_length;
         let rows: Vec<(Vec<(usize, f64)>, f64)> = nodes
@@ -81,12 +81,12 @@ impl Stencils {
         Self { entries: rows.into_iter().flat_map(|(row, _)| row).collect(), start, support }
     }
 
-    /// A scalar field at the nodes; NaN at nodes without particles in reach.
+    /// A scalar field at the nodes; NaN at nodes without particles in their support.
     pub fn scalar(&self, values: &[f64]) -> Vec<f64> {
         self.apply(|row| row.iter().map(|&(b, weight)| weight * values[b]).sum(), f64::NAN)
     }
 
-    /// A vector field at the nodes; NaN at nodes without particles in reach.
+    /// A vector field at the nodes; NaN at nodes without particles in their support.
     pub(crate) fn vector(&self, values: &[Vec2]) -> Vec<Vec2> {
         self.apply(|row| row.iter().map(|&(b, weight)| weight * values[b]).sum(), Vec2::repeat(f64::NAN))
     }

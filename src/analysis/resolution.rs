@@ -1,20 +1,20 @@
-//! Which fluid particles stand for a flow that is resolved, and which are single, in rows, or in pieces of a few.
+//! Which fluid particles belong to a resolved flow, and which are isolated, in single rows, or in clusters of a few.
 //!
-//! As an opening of mathematical morphology (Serra 1982): the core of a phase are its particles that have only their own phase, or walls,
-//! within `CORE` spacings; all within `REACH` spacings of the core belong to it. What is left is thinner than about three particles.
+//! A morphological opening (Serra 1982): the core of a phase are the particles that have only their own phase, or walls, within `CORE` spacings; all particles
+//! within `REACH` spacings of the core belong to it. The remainder is thinner than about three particles.
 
 use rayon::prelude::*;
 
 use super::cells::Cells;
 use crate::math::Vec2;
 
-/// Distance in spacings within which a core particle has no other phase: more than the diagonal of the lattice.
+/// Radius in spacings within which a core particle has no other phase: more than the diagonal of the lattice.
 const CORE: f64 = 1.5;
 
-/// Distance in spacings from the core: two layers of particles.
+/// Distance from the core in spacings: two layers of particles.
 const REACH: f64 = 2.2;
 
-/// For each particle whether its phase is thinner there than about three particles.
+/// For each particle, whether its phase is locally thinner than about three particles.
 ///
 /// `points` in m, `is_wetting` the phase of each, `spacing` in m, `period` in m.
 pub(crate) fn thin_parts(points: &[Vec2], is_wetting: &[bool], spacing: f64, period: [Option<f64>; 2]) -> Vec<bool> {

@@ -1,8 +1,8 @@
 //! Root of a function of one variable by bisection.
 
-/// The root in m, rad or whatever `function` takes, in `[low, high]`; nothing where the signs at the ends are alike.
+/// The root in `[low, high]` (m, rad or whatever `function` takes); `None` if the signs at the ends are equal.
 ///
-/// Goes on until the interval is as small as rounding allows.
+/// Bisects until the interval is as small as rounding allows.
 pub(crate) fn bisect(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     let (mut low, mut high) = (low, high);
     let at_low = function(low);
@@ -14,7 +14,7 @@ pub(crate) fn bisect(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opti
     if product.is_nan() || product > 0.0 {
         return None;
     }
-    // 200 halvings exhaust the digits of any interval that does not hold 0.
+    // 200 halvings exhaust the digits of any interval that does not contain 0.
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if middle == low || middle == high {

@@ -1,43 +1,43 @@
-//! What samples say: moments, quantiles, and how the variance is shared among independent inputs (Sobol indices).
+//! Statistics of samples: moments, quantiles, and the decomposition of the variance over independent inputs (Sobol indices).
 
-/// Mean of some values; that of equal ones is exact.
+/// Arithmetic mean; exact for equal values.
 pub(crate) fn mean(values: &[f64]) -> f64 {
     let Some(&first) = values.first() else { return f64::NAN };
     first + values.iter().map(|value| value - first).sum::<f64>() / values.len() as f64
 }
 
-/// Standard deviation, with the number of values less one.
+/// Sample standard deviation, with n - 1.
 pub(crate) fn deviation(values: &[f64]) -> f64 {
     let mean = mean(values);
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// The value below which a share of some ascending values lies, 0 to 1, linear between two of them (Hyndman and Fan 1996, definition 7). Infinite values
-/// may be among them; between one of them and another value the former counts.
-pub(crate) fn quantile(ascending: &[f64], share: f64) -> f64 {
+/// The quantile at `probability`, 0 to 1, of ascending values, by linear interpolation (Hyndman and Fan 1996, definition 7). Values may be infinite; between an
+/// infinite and another value the lower one counts.
+pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
     let Some(last) = ascending.len().checked_sub(1) else { return f64::NAN };
-    let place = share.clamp(0.0, 1.0) * last as f64;
-    let below = place.floor() as usize;
+    let position = probability.clamp(0.0, 1.0) * last as f64;
+    let below = position.floor() as usize;
     let (low, high) = (ascending[below], ascending[(below + 1).min(last)]);
-    let rest = place - below as f64;
-    if rest == 0.0 || low == high || low.is_infinite() {
+    let remainder = position - below as f64;
+    if remainder == 0.0 || low == high || low.is_infinite() {
         low
     } else if high.is_infinite() {
         high
     } else {
-        low + rest * (high - low)
+        low + remainder * (high - low)
     }
 }
 
-/// The first-order and the total index of each input: `a` and `b` are the results for two independent samples, each of `mixed` those for `a` with one
-/// input as in `b`. First order by the estimator (b) of table 2 of Saltelli et al. (2010), with results less their mean; total by (f), that of Jansen
-/// (1999). None where nothing varies.
+/// The first-order and the total index of each input: `a` and `b` are the results for two independent samples, each of `mixed` those for `a` with one input as
+/// in `b`. First order by the estimator (b) of table 2 of Saltelli et al. (2010), with the mean subtracted; total by (f), that of Jansen (1999). `None` if
+/// nothing varies.
 pub(crate) fn sobol_indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Option<Vec<[f64; 2]>> {
     let all: Vec<f64> = a.iter().chain(b).copied().collect();
     let center = mean(&all);
     let variance = all.iter().map(|value| (value - center).powi(2)).sum::<f64>() / all.len() as f64;
-    // Below this share of the square of the mean it is rounding.
+    // Below this fraction of the squared mean the variance is rounding.
     const ROUNDING: f64 = 1e-20;
     if !(variance > ROUNDING * center * center) {
         return None;
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn a_sum_shares_its_variance_by_that_of_its_terms() {
-        // Numbers that look random and are the same each time, between 0 and 1.
+        // Pseudo-random numbers between 0 and 1, the same each time.
         let mut state: u64 = 1;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

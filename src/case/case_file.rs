@@ -38,28 +38,28 @@ tables! {
 /// A case that can be run.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Case {
-    /// One line that says what the case shows.
+    /// One line that describes the case.
     pub title: String,
     /// Domain and solids.
     pub geometry: GeometrySpec,
-    /// Distance of floor and lid in m; absent in the plane, where all is per meter of depth.
+    /// Depth of the chip (distance between floor and lid) in m; `None` in the plane, where all is per meter of depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<f64>,
     /// The model that solves it.
     pub model: Model,
-    /// End of the simulation in s; of a network the most that it can displace, in pore volumes.
+    /// End of the simulation in s; for a network, the upper limit of the displacement in pore volumes.
     pub end: f64,
-    /// When the run counts as steady, and whether it then ends (`[time.steady]`); absent: it goes on to its end.
+    /// When the run counts as steady, and whether it then ends (`[time.steady]`); `None`: it continues to its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadyStop>,
     /// What is written and when.
     pub output: Output,
-    /// What the run must give.
+    /// Expected measures.
     pub expect: Vec<Expectation>,
 }
 
 impl Case {
-    /// What its pressures, volumes and rates are those of, in a line; none of a film on a wall.
+    /// The dimension of its pressures, volumes and rates, in one line; `None` for a film on a wall.
     pub(crate) fn about_depth(&self) -> Option<String> {
         match (&self.model, self.depth) {
             (Model::ThinFilm(_), _) => None,
@@ -67,7 +67,7 @@ impl Case {
                 Some("plane, per meter of depth; a chip of finite depth has other pressures: geometry.depth".to_owned())
             }
             (_, Some(depth)) => {
-                // To the nanometer: products of decimals end in nines.
+                // Rounded to the nanometer: products of decimals have trailing nines.
                 let um = (1e9 * depth).round() / 1e3;
                 Some(format!("{um} um, with the curvature and the friction of floor and lid"))
             }
@@ -88,7 +88,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// The sides of its domain; none of a film on a wall.
+    /// The sides of its domain; `None` for a film on a wall.
     pub(crate) fn sides(&self) -> Option<&Sides> {
         match self {
             Self::Sph(sph) => Some(&sph.sides),
@@ -98,7 +98,7 @@ impl Model {
     }
 }
 
-/// The case as TOML that loads to the same case (angles to the last bit of a degree): no defaults, presets, overrides or other files left.
+/// The case as TOML that loads to the same case (angles to the last bit of a degree), with all defaults, presets, overrides and files resolved.
 pub(super) fn text(case: &Case) -> String {
     // Every value of a checked case can be written as TOML: numbers, texts and tables with text keys.
     toml::to_string(&raw(case)).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! `depth` of `[geometry]`: which models know one, and what belongs to it.
+//! `depth` of `[geometry]`: which models support it, and what it requires.
 
 use super::case_file::Model;
 use super::network::refuse_films;
@@ -6,12 +6,12 @@ use super::wetting::PatchedWall;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, Problem};
 
-/// Largest size of a domain over the depth, and of the depth over the domain.
+/// Largest ratio of the size of a domain to the depth, and of the depth to the size.
 const MOST: f64 = 1e6;
 
 const KEY: &str = "geometry.depth";
 
-/// Gives the model its depth; refuses one that it does not know or that is none of the geometry, and floors and lids without one.
+/// Passes the depth to the model; refuses a depth that the model does not support or that does not fit the geometry, and floors and lids without one.
 pub(super) fn depth(
     checker: &mut Checker,
     depth: Option<f64>,
@@ -22,7 +22,7 @@ pub(super) fn depth(
     let (table, patches) = match model {
         Some(Model::Sph(sph)) => {
             sph.depth = depth;
-            // A table without a model has a mistake of its own.
+            // A wetting table without a model is reported separately.
             if depth.is_some() && sph.acting_tension() > 0.0 && sph.wetting_model.is_none() && !has_wetting_table {
                 let message = "an interface between floor and lid is curved by their contact angles, and none is given";
                 checker.refuse("sph.wetting", message, "add the table [sph.wetting.young]");
@@ -58,10 +58,10 @@ pub(super) fn depth(
     checker.problems.extend(geometry.and_then(|geometry| none_of(depth, geometry)));
 }
 
-/// What is wrong with a depth in m that is none of a geometry.
+/// What is wrong with a depth in m that does not fit a geometry.
 pub(crate) fn none_of(depth: f64, geometry: &GeometrySpec) -> Option<Problem> {
     let size = (geometry.max[0] - geometry.min[0]).max(geometry.max[1] - geometry.min[1]);
-    // The command line gives any number.
+    // The command line accepts any number.
     let is_of_it = depth <= MOST * size && depth * MOST >= size;
     let message = format!("the depth of {depth:e} m is none of a domain of {size:e} m");
     (!is_of_it).then(|| Problem::new(KEY, message, "give it in m: 50 um are 50e-6; leave it out for a plane"))

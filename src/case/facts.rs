@@ -1,5 +1,4 @@
-//! Checks of a case that need its real geometry: whether the spacing resolves the narrowest throat, and whether the
-//! initial phases lie in the pore.
+//! Checks of a case that need its actual geometry: whether the spacing resolves the narrowest throat, and whether the initial phases lie in the pore.
 
 use super::case_file::{Case, Model};
 use super::sph::Sph;
@@ -9,12 +8,12 @@ use crate::math::Vec2;
 /// Fewest particles across a throat: below, the kernels of both walls cover all of it.
 pub(crate) const FEWEST_IN_THROAT: f64 = 5.0;
 
-/// Most points along a side of the domain at which an initial shape is looked for.
+/// Largest number of points along a side of the domain at which an initial shape is sampled.
 const MOST_SAMPLES: f64 = 2000.0;
 
-/// What the checks need to know of the geometry.
+/// Properties of the geometry required by the checks.
 pub struct Facts<'a> {
-    /// Width of the narrowest throat in m and its middle; absent where there is none.
+    /// Width of the narrowest throat in m and its center; `None` if there is none.
     pub throat: Option<(f64, Vec2)>,
     /// Distance to the nearest wall in m, above 0 in the pore.
     pub wall_distance: &'a dyn Fn(Vec2) -> f64,
@@ -28,7 +27,7 @@ impl std::fmt::Debug for Facts<'_> {
     }
 }
 
-/// What is wrong with a case on its real geometry.
+/// What is wrong with a case for its actual geometry.
 pub fn check_against(case: &Case, facts: &Facts) -> Vec<Problem> {
     let Model::Sph(sph) = &case.model else { return Vec::new() };
     let mut problems: Vec<Problem> = throat(sph, facts).into_iter().collect();
@@ -37,14 +36,14 @@ pub fn check_against(case: &Case, facts: &Facts) -> Vec<Problem> {
 }
 
 fn throat(sph: &Sph, facts: &Facts) -> Option<Problem> {
-    let (width, place) = facts.throat?;
+    let (width, center) = facts.throat?;
     let count = width / sph.spacing;
     (count < FEWEST_IN_THROAT).then(|| Problem {
         path: "sph.spacing".to_owned(),
         message: format!(
             "the narrowest throat is {width:.3e} m wide at ({:.3e}, {:.3e}) m and has {count:.1} particles, \
              at least {FEWEST_IN_THROAT} are needed",
-            place.x, place.y
+            center.x, center.y
         ),
         help: format!("a spacing of {:.2e} m or less would do", width / FEWEST_IN_THROAT),
     })
@@ -71,14 +70,14 @@ fn regions(case: &Case, sph: &Sph, facts: &Facts) -> Vec<Problem> {
         message: if in_domain[index] {
             "the initial shape lies wholly inside the solid".to_owned()
         } else {
-            format!("the initial shape holds no particle of the domain at a spacing of {:e} m", sph.spacing)
+            format!("the initial shape contains no particle of the domain at a spacing of {:e} m", sph.spacing)
         },
         help: "move it into the pore, or make it larger".to_owned(),
     })
     .collect()
 }
 
-/// The middles of the cells of the initial lattice, or of coarser cells where there are very many.
+/// The centers of the cells of the initial lattice, or of coarser cells if there are very many.
 fn samples(case: &Case, spacing: f64) -> impl Iterator<Item = Vec2> {
     let min = Vec2::from(case.geometry.min);
     let size = Vec2::from(case.geometry.max) - min;

@@ -13,7 +13,7 @@ tables! {
         pub non_wetting: RawFluid,
     }
 
-    /// A Newtonian fluid, by name or by its properties; a property given beside a name wins.
+    /// A Newtonian fluid, by name or by its properties; a property given in addition to a name overrides that of the preset.
     pub struct RawFluid {
         /// Fluid with known properties.
         pub preset: Preset,
@@ -35,7 +35,7 @@ tables! {
 words! {
     /// A phase.
     pub enum FluidPhase {
-        /// The phase through which angles are measured.
+        /// The phase through which contact angles are measured.
         Wetting,
         /// The other phase.
         NonWetting,
@@ -52,7 +52,7 @@ pub struct Fluid {
 }
 
 impl RawFluid {
-    /// The properties of the preset, where there is one.
+    /// The properties of the preset, if there is one.
     pub(crate) fn properties(&self) -> Option<Properties> {
         self.preset.map(|preset| preset.at(self.temperature_c.unwrap_or(COLD)))
     }
@@ -67,7 +67,7 @@ impl From<Fluid> for RawFluid {
 /// Largest ratio of densities for which the pressure solve is known to converge.
 const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 
-/// The fluid of the table at the key path `at`, none where it is wrong.
+/// The fluid of the table at the key path `at`, `None` if it is wrong.
 pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
     let path = format!("{at}.temperature-c");
     if checker.is_given(&path, raw.temperature_c.as_ref()) && raw.preset.is_none() {

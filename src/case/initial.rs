@@ -1,4 +1,4 @@
-//! Checks of `[sph.initial]`: which phase is where at time zero, and how it moves.
+//! Checks of `[sph.initial]`: the phases and the velocity at time zero.
 
 use std::path::PathBuf;
 
@@ -16,12 +16,12 @@ tables! {
     pub(crate) struct RawInitial {
         /// Phase outside of the shapes (default `non-wetting`).
         pub background: FluidPhase,
-        /// Shapes filled with the wetting phase (with `background = "wetting"`, with the other one); each holds a particle of the
-        /// pore (this or `non-wetting` is required with two fluids).
+        /// Shapes filled with the wetting phase (with `background = "wetting"`, with the other one); each must contain a particle of the pore (this or
+        /// `non-wetting` is required with two fluids).
         pub wetting: Vec<ShapeSpec>,
-        /// Shapes filled with the non-wetting phase, in place of `background` and `wetting`: the wetting phase fills the rest.
+        /// Shapes filled with the non-wetting phase, instead of `background` and `wetting`: the wetting phase fills the rest.
         pub non_wetting: Vec<ShapeSpec>,
-        /// File with the state of a network of the same geometry, in place of these.
+        /// File with the state of a network of the same geometry, instead of these.
         pub network: PathBuf,
         /// Initial velocity: at most one field (default `rest`).
         pub velocity: RawVelocity,
@@ -44,7 +44,7 @@ tables! {
     }
 }
 
-/// The keys of shapes that say which phase is where.
+/// The keys of shapes that define the phases.
 const WETTING: &str = "sph.initial.wetting";
 const NON_WETTING: &str = "sph.initial.non-wetting";
 
@@ -53,12 +53,12 @@ const NON_WETTING: &str = "sph.initial.non-wetting";
 pub struct Initial {
     /// The wetting phase is the union of these shapes (`[[sph.initial.wetting]]`) ...
     pub wetting: Vec<ShapeSpec>,
-    /// ... or, where true, all that is outside of them (`[[sph.initial.non-wetting]]`, or `sph.initial.background = "wetting"`).
+    /// ... or, if true, everything outside of them (`[[sph.initial.non-wetting]]`, or `sph.initial.background = "wetting"`).
     pub wetting_is_background: bool,
-    /// The key under which they stand.
+    /// The key of the shapes.
     #[serde(skip)]
     pub key: &'static str,
-    /// The state of a network that says it instead (`sph.initial.network`).
+    /// The state of a network instead of shapes (`sph.initial.network`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub network: Option<Start>,
     /// Initial velocity.
@@ -77,7 +77,7 @@ pub enum InitialVelocity {
     TaylorGreen(f64),
 }
 
-/// The state at time zero by shapes.
+/// The state at time zero from shapes.
 pub(super) fn initial(
     checker: &mut Checker,
     raw: &RawInitial,
@@ -106,7 +106,7 @@ pub(super) fn initial(
     Some(Initial { wetting, wetting_is_background, key, network: None, velocity: velocity? })
 }
 
-/// The state at time zero by that of a network.
+/// The state at time zero from that of a network.
 pub(super) fn from_network(
     checker: &mut Checker,
     raw: &RawInitial,
@@ -146,12 +146,12 @@ pub(super) fn from_network(
     Some(Initial { wetting: Vec::new(), wetting_is_background, key: WETTING, network: Some(start), velocity })
 }
 
-/// Refuses what else is given where one key says which phase is where; `others` are keys, and whether they are given.
-fn refuse_beside(checker: &mut Checker, says_it: &str, others: &[(&str, bool)]) {
+/// Refuses further keys if one key defines the phases; `others` are keys, and whether they are given.
+fn refuse_beside(checker: &mut Checker, deciding: &str, others: &[(&str, bool)]) {
     for (key, _) in others.iter().filter(|(_, given)| *given) {
         checker.refuse(
             format!("sph.initial.{key}"),
-            format!("`{says_it}` says which phase is where, and `{key}` is given too"),
+            format!("`{deciding}` says which phase is where, and `{key}` is given too"),
             "keep one of them",
         );
     }
@@ -177,7 +177,7 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
     }
 }
 
-/// The table of an initial state; `two_phases` where it says which phase is where.
+/// The table of an initial state; `two_phases` if it defines the phases.
 pub(super) fn raw_initial(initial: &Initial, two_phases: bool) -> RawInitial {
     let by_shapes = two_phases && initial.network.is_none();
     let [of_wetting, of_other] = [WETTING, NON_WETTING].map(|key| by_shapes && initial.key == key);

@@ -1,11 +1,11 @@
-//! Which kind of TOML file one is: a case names a geometry and a model in tables, a shape file has its keys at the top, a study has axes.
+//! The kind of a TOML file: a case has tables of a geometry and a model, a shape file has its keys at the top level, a study has axes.
 
 use crate::input::Problem;
 
-/// The tables of which a case file has at least one, and a shape file none.
+/// A case file has at least one of these tables, a shape file none.
 const TABLES: [&str; 4] = ["geometry", "sph", "thin-film", "network"];
 
-/// Whether a text is a case file rather than a shape file. A text that is no TOML counts as what its table headers look like.
+/// Whether a text is a case file rather than a shape file. Invalid TOML is judged by what look like table headers.
 pub(crate) fn is_case(text: &str) -> bool {
     match text.trim_start_matches('\u{feff}').parse::<toml::Table>() {
         Ok(table) => TABLES.iter().any(|name| table.contains_key(*name)),
@@ -19,10 +19,10 @@ pub(crate) fn is_case(text: &str) -> bool {
     }
 }
 
-/// Keys at the top of a study file, which no case has.
+/// Top-level keys of a study file, which no case has.
 const STUDY: [&str; 3] = ["axis", "case", "trend"];
 
-/// What to say of a text that is read as a case and is a shape file or a study; all its keys would be mistakes otherwise.
+/// The problem of a text that is read as a case but is a shape file or a study; otherwise all its keys would be mistakes.
 pub(super) fn other_than_a_case(text: &str) -> Option<Problem> {
     let table = text.trim_start_matches('\u{feff}').parse::<toml::Table>().ok()?;
     let has = |names: &[&str]| names.iter().any(|name| table.contains_key(*name));
@@ -37,7 +37,7 @@ pub(super) fn other_than_a_case(text: &str) -> Option<Problem> {
     has(&STUDY).then(|| Problem::new("", "this is a study, and a case was expected", help))
 }
 
-/// What to say of a text that is read as a study and is a case.
+/// The problem of a text that is read as a study but is a case.
 pub(crate) fn other_than_a_study(text: &str) -> Option<Problem> {
     let table = text.trim_start_matches('\u{feff}').parse::<toml::Table>().ok()?;
     let has = |names: &[&str]| names.iter().any(|name| table.contains_key(*name));
@@ -51,15 +51,15 @@ mod tests {
 
     #[test]
     fn a_file_of_another_kind_is_told_as_such() {
-        let told = |problem: Option<Problem>| problem.map(|problem| problem.message);
+        let message = |problem: Option<Problem>| problem.map(|problem| problem.message);
         let (shapes, case) = ("min = [0, 0]\nshapes = []\n", "format = 1\n[sph]\nspacing = 1\n");
         let study = "format = 1\ncase = 'a.toml'\n[[axis]]\nkey = 'sph.spacing'\n";
-        assert!(told(other_than_a_case(shapes)).unwrap().contains("a shape file"));
-        assert!(told(other_than_a_case(study)).unwrap().contains("a study"));
-        assert!(told(other_than_a_study(case)).unwrap().contains("a case"));
-        assert_eq!((told(other_than_a_case(case)), told(other_than_a_study(study))), (None, None));
-        // Mistakes of their own are told otherwise.
-        assert_eq!((told(other_than_a_case("titel = 1")), told(other_than_a_study("titel = 1"))), (None, None));
+        assert!(message(other_than_a_case(shapes)).unwrap().contains("a shape file"));
+        assert!(message(other_than_a_case(study)).unwrap().contains("a study"));
+        assert!(message(other_than_a_study(case)).unwrap().contains("a case"));
+        assert_eq!((message(other_than_a_case(case)), message(other_than_a_study(study))), (None, None));
+        // Ordinary mistakes are reported elsewhere.
+        assert_eq!((message(other_than_a_case("titel = 1")), message(other_than_a_study("titel = 1"))), (None, None));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! From a path to a checked case, by way of the shape file it names.
+//! From a path to a checked case, including its shape file.
 
 use std::path::{Path, PathBuf};
 
@@ -13,32 +13,32 @@ use crate::geometry::import::{self, Beyond};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, Document, InputError, Overrides, Problem, Renamed};
 
-/// A checked case and where it came from.
+/// A checked case and its sources.
 #[derive(Debug, Clone)]
 pub struct Loaded {
     /// The case.
     pub case: Case,
-    /// The case as one file: overrides, defaults, presets and shapes written out. It loads to the same case.
+    /// The case as one file: overrides, defaults, presets and shapes resolved. It loads to the same case.
     pub resolved: String,
     /// The files that were read.
     pub sources: Vec<PathBuf>,
-    /// What the user should know of how the drawing was read, one sentence each.
+    /// Notes for the user on how the drawing was read, one sentence each.
     pub notes: Vec<String>,
-    /// The text of the file, in which mistakes found later have their places.
+    /// The text of the file, in which later mistakes are located.
     pub document: Document,
 }
 
 impl Loaded {
-    /// Puts problems found later, by [`check_against`](super::check_against) say, at their places in the case file.
+    /// Locates problems found later, by [`check_against`](super::check_against) say, in the case file.
     ///
     /// # Errors
-    /// [`InputError`] where there are problems.
+    /// [`InputError`] if there are problems.
     pub fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
         self.document.refuse(problems)
     }
 }
 
-/// Keys with new names.
+/// Renamed keys.
 static RENAMED: [Renamed; 3] = [
     Renamed { table: &NUMERICS, before: "drift-source", now: "density-error-correction" },
     Renamed { table: &NUMERICS, before: "drift-correction", now: "density-error-shifting" },
@@ -46,7 +46,7 @@ static RENAMED: [Renamed; 3] = [
 ];
 const NUMERICS: [&str; 2] = ["sph", "numerics"];
 
-/// How the built-in case is called in messages.
+/// Name of the built-in case in messages.
 const DEFAULT_CASE: &str = "cases/four-discs.toml";
 const DEFAULT_CASE_TEXT: &str = include_str!("../../cases/four-discs.toml");
 
@@ -59,7 +59,7 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
     load_text(&path.display().to_string(), &text, overrides, &Origin::Disk(path))
 }
 
-/// Loads and checks a case as if the file of the state that it begins with held `state`.
+/// Loads and checks a case as if the file of its initial state contained `state`.
 ///
 /// # Errors
 /// As [`load`].
@@ -76,7 +76,7 @@ pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
     load_text(DEFAULT_CASE, DEFAULT_CASE_TEXT, overrides, &Origin::BuiltIn)
 }
 
-/// Loads and checks the text of a case that stands in no file; `name` is how it is called in messages.
+/// Loads and checks the text of a case without a file; `name` is its name in messages.
 ///
 /// # Errors
 /// As [`load`].
@@ -84,7 +84,7 @@ pub fn load_given(name: &str, text: &str, overrides: &Overrides) -> Result<Loade
     load_text(name, text, overrides, &Origin::Given)
 }
 
-/// Loads the text of a starter case, which names no file.
+/// Loads the text of a starter case, which refers to no files.
 ///
 /// # Errors
 /// All its mistakes.
@@ -92,7 +92,7 @@ pub(super) fn load_starter(text: &str) -> Result<Loaded, InputError> {
     load_text("the starter case", text, &Overrides::default(), &Origin::BuiltIn)
 }
 
-/// Loads and checks a case file without its text as one file; a geometry that is the one in `kept` is not read again.
+/// Loads and checks a case file without its resolved text; if its geometry is the one in `kept`, it is not read again.
 ///
 /// # Errors
 /// As [`load`].
@@ -106,7 +106,7 @@ pub(crate) fn load_with(
     Ok((unwritten.case, unwritten.document))
 }
 
-/// A checked case that is not written out.
+/// A checked case without its resolved text.
 struct Unwritten {
     case: Case,
     sources: Vec<PathBuf>,
@@ -135,7 +135,7 @@ fn check_text(
     checker.format(raw.format);
     let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
-    // Which of its keys go with a file is a question of all that are written.
+    // Whether its keys go with a file is judged on all keys as written.
     let geometry = written.geometry.as_ref().and_then(|raw| {
         let known = kept.and_then(|kept| kept.find(raw));
         let read = known.or_else(|| read_geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere))?;
@@ -192,7 +192,7 @@ fn in_spacings(geometry: Option<&GeometrySpec>, model: Option<&Model>) -> Option
     Some([0, 1].map(|axis| (geometry.max[axis] - geometry.min[axis]) / sph.spacing))
 }
 
-/// The model of the case; `network` is its network with the measured values of the file that it names.
+/// The model of the case; `network` is its network with the measured values from its file.
 fn model(
     checker: &mut Checker,
     (raw, network): (&RawCase, Option<&RawNetwork>),
@@ -213,7 +213,7 @@ fn model(
     }
 }
 
-/// The case as it is written, or without its models where it has several.
+/// The case as written, or without its models if it has several.
 fn one_model(checker: &mut Checker, raw: RawCase) -> RawCase {
     let given =
         [("sph", raw.sph.is_some()), ("thin-film", raw.thin_film.is_some()), ("network", raw.network.is_some())];

@@ -1,20 +1,20 @@
-//! Numbers that are no quantity of a flow in SI units, in whatever key: products of a few of them would leave the range of a double.
+//! Magnitudes out of range for a flow in SI units, under any key: products of a few of them would overflow or underflow.
 
 use serde::Serialize;
 use toml::Value;
 
 use crate::input::Checker;
 
-/// Smallest and largest size of a number that is not 0.
+/// Smallest and largest magnitude of a number that is not 0.
 const SIZES: (f64, f64) = (1.0e-20, 1.0e15);
-/// A number of a list below this share of the largest one is 0 within rounding, such as a coordinate on an axis.
+/// A number of a list below this fraction of the largest one is 0 within rounding, such as a coordinate on an axis.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Smallest size of such a number that is not 0.
+/// Smallest magnitude of such a number that is not 0.
 const SMALLEST_ROUNDING: f64 = 1.0e-40;
 
-/// Refuses such numbers in a table of the case; keys that are refused already are left to that.
+/// Refuses such numbers in a table of the case; keys that are refused already are skipped.
 pub(super) fn magnitudes(checker: &mut Checker, table: &str, raw: Option<&impl Serialize>) {
-    // What does not serialize holds no number.
+    // Whatever does not serialize has no numbers.
     let Some(Ok(value)) = raw.map(Value::try_from) else { return };
     let mut found = Vec::new();
     collect(&value, table.to_owned(), 0.0, &mut found);
@@ -26,7 +26,7 @@ pub(super) fn magnitudes(checker: &mut Checker, table: &str, raw: Option<&impl S
     }
 }
 
-/// Finds numbers of no size; below `rounding` they are 0 within rounding.
+/// Finds numbers with magnitudes out of range; below `rounding` they are 0 within rounding.
 fn collect(value: &Value, path: String, rounding: f64, found: &mut Vec<(String, f64)>) {
     match value {
         Value::Float(number) => {
@@ -45,7 +45,7 @@ fn collect(value: &Value, path: String, rounding: f64, found: &mut Vec<(String, 
     }
 }
 
-/// The largest size of the numbers of a list and of the lists in it.
+/// The largest magnitude of the numbers of a list and of its nested lists.
 fn largest(value: &Value) -> f64 {
     match value {
         Value::Float(number) => number.abs(),

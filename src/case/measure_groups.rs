@@ -1,13 +1,13 @@
-//! `[sph.measure]`: groups of measures that a case can ask for; each is a table `[sph.measure.NAME]`.
+//! `[sph.measure]`: groups of measures that a case can request; each is a table `[sph.measure.NAME]`.
 
 use crate::input::tables::{Empty, name, tables};
 
-/// Measures that come together, and what a case must have for them.
+/// Measures that come together, and what a case needs for them.
 #[derive(Debug)]
 pub struct Offer {
     /// Names.
     pub names: &'static [&'static str],
-    /// What gives them, such as `[sph.measure.jurin]`.
+    /// What provides them, such as `[sph.measure.jurin]`.
     pub given_by: String,
     /// Whether the case has that.
     pub is_given: bool,
@@ -19,7 +19,7 @@ impl Offer {
     }
 }
 
-/// The set of groups, and its way from a case file and back into one.
+/// The set of groups, and its conversion from and to a case file.
 macro_rules! groups {
     ($(#[doc = $doc:literal] pub $group:ident: [$($name:literal),*],)*) => {
         tables! {
@@ -27,19 +27,19 @@ macro_rules! groups {
             pub(crate) struct RawMeasures { $(#[doc = $doc] pub $group: Empty,)* }
         }
 
-        /// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.
+        /// Named groups of measures a case can request; each is a table `[sph.measure.NAME]`.
         #[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
         pub struct MeasureSet {
             $(#[doc = $doc] pub $group: bool,)*
         }
 
         impl MeasureSet {
-            /// The groups whose tables are there.
+            /// The groups whose tables are present.
             pub(super) fn from_raw(raw: &RawMeasures) -> Self {
                 Self { $($group: raw.$group.is_some(),)* }
             }
 
-            /// The names of the measures of each group, and whether it is asked for.
+            /// The names of the measures of each group, and whether it is requested.
             pub(super) fn offers(&self) -> Vec<Offer> {
                 vec![$(Offer {
                     names: &[$($name),*],
@@ -48,7 +48,7 @@ macro_rules! groups {
                 },)*]
             }
 
-            /// A table for each group that is asked for.
+            /// A table for each requested group.
             pub(super) fn to_raw(&self) -> RawMeasures {
                 RawMeasures { $($group: self.$group.then_some(Empty {}),)* }
             }
@@ -87,13 +87,13 @@ groups! {
     pub cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
     /// Permeability tensor of a periodic cell.
     pub permeability: [],
-    /// Relative permeability of both phases beside a frozen interface.
+    /// Relative permeability of both phases with a frozen interface.
     pub relative_permeability: ["permeability-m2", "relative-permeability-wetting", "relative-permeability-non-wetting", "saturation", "unsteady-share"],
     /// Capillary pressure of a meniscus in the throat between two bodies.
     pub throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.
     pub jurin: ["rise-difference-m", "rise-ratio"],
-    /// Angles, speeds and forces of a drop that moves or is held on a wall.
+    /// Angles, speeds and forces of a drop that moves or is pinned on a wall.
     pub moving_drop: ["advancing-angle-deg", "receding-angle-deg", "advancing-speed-m-per-s", "receding-speed-m-per-s", "advancing-way-m-per-s", "receding-way-m-per-s", "advancing-capillary-number", "receding-capillary-number", "advancing-wall-angle-deg", "receding-wall-angle-deg", "adhesion-tension-N-per-m", "retention-N-per-m", "wall-retention-N-per-m", "stream-drag-N-per-m", "net-drag-N-per-m", "drag-over-retention", "drag-over-wall-retention", "momentum-balance-error", "detachment-time-s"],
     /// Exponent of the base width of a spreading drop.
     pub spreading: ["spreading-exponent"],

@@ -1,4 +1,4 @@
-//! The measures of each solver by name, and the groups of them that a case can ask for are in `measure_groups`.
+//! The measures of each solver by name; the groups that a case can request are in `measure_groups`.
 
 use super::case_file::Model;
 use super::film::{FilmEquation, FilmMethod, ThinFilm};
@@ -11,9 +11,9 @@ use crate::input::nearest;
 
 /// Measures of every direct simulation.
 const EVERY_RUN: &[&str] = &["density-error", "largest-density-error", "smallest-particle-distance-ratio"];
-/// That of one with a wall.
+/// With a wall.
 const WITH_WALLS: &[&str] = &["smallest-wall-distance-m"];
-/// Those of one with a tension.
+/// With a tension.
 const WITH_TENSION: &[&str] = &[
     "saturation",
     "area-drift",
@@ -25,29 +25,29 @@ const WITH_TENSION: &[&str] = &[
     "small-pieces",
     "most-small-pieces",
 ];
-/// Those of one with a wetting model too.
+/// With a wetting model.
 const WITH_WETTING: &[&str] = &["contact-angle-deg", "requested-angle-deg", "line-slip-length-m"];
-/// Those of one with open sides, or with a given flow through periodic ones.
+/// With open sides, or with a prescribed flow through periodic ones.
 const OPEN_SIDES: &[&str] = &["balance-error", "open-area-drift", "inflow-m2-per-s"];
-/// Those of two phases between open sides.
+/// Of two phases between open sides.
 const BREAKTHROUGH: &[&str] = &["breakthrough-time-s", "saturation-at-breakthrough"];
-/// Those of one with a given velocity or flow rate, at an inlet or through periodic sides.
+/// With a prescribed velocity or flow rate, at an inlet or through periodic sides.
 const GIVEN_FLOW: &[&str] = &["asked-inflow-m2-per-s", "inflow-ratio"];
-/// Those of a chip with a depth between open sides.
+/// Of a chip with a depth between open sides.
 const INFLOW_OF_CHIP: &[&str] = &["inflow-m3-per-s"];
-/// Those of one with a given velocity or flow rate.
+/// Of a chip with a depth and a prescribed velocity or flow rate.
 const GIVEN_FLOW_OF_CHIP: &[&str] = &["asked-inflow-m3-per-s"];
-/// Those of a drop that moves in one.
+/// Of a moving drop in a chip with a depth.
 const FORCES_OF_CHIP: &[&str] = &["retention-N", "wall-retention-N", "stream-drag-N", "net-drag-N"];
-/// Those of one with a given flow through periodic sides.
+/// With a prescribed flow through periodic sides.
 const PERIODIC_FLOW: &[&str] = &["largest-flow-rate-error", "driving-pressure-drop-Pa"];
-/// That of one with a pressure that rises in steps.
+/// With a pressure that rises in steps.
 const PRESSURE_STEPS: &[&str] = &["burst-pressure-Pa"];
-/// Those of the permeability tensor by the force along x.
+/// Of the permeability tensor by the force along x.
 const PERMEABILITY_X: &[&str] = &["permeability-xx-m2", "permeability-yx-m2", "unsteady-share-x"];
 /// The same along y.
 const PERMEABILITY_Y: &[&str] = &["permeability-xy-m2", "permeability-yy-m2", "unsteady-share-y"];
-/// Those of every pore network.
+/// Of every pore network.
 const NETWORK: &[&str] = &[
     "porosity",
     "pores",
@@ -64,7 +64,7 @@ const NETWORK: &[&str] = &[
     "final-wetting-saturation",
     "events",
 ];
-/// Those of one without time.
+/// Of a quasi-static one.
 const NETWORK_QUASI_STATIC: &[&str] = &[
     "relative-permeability-wetting",
     "relative-permeability-non-wetting",
@@ -76,7 +76,7 @@ const NETWORK_QUASI_STATIC: &[&str] = &[
     "largest-capillary-pressure-Pa",
     "hysteresis-work-J-per-m3",
 ];
-/// Those of a displacement in time.
+/// Of a displacement in time.
 const NETWORK_IN_TIME: &[&str] = &[
     "breakthrough-time-s",
     "breakthrough-pressure-difference-Pa",
@@ -90,25 +90,25 @@ const NETWORK_IN_TIME: &[&str] = &[
     "balance-error",
     "solves-per-event",
 ];
-/// Those of every thin film.
+/// Of every thin film.
 const THIN_FILM: &[&str] =
     &["contact-line-position", "center-height", "contact-angle-deg", "droplet-count", "contact-line-exponent"];
-/// Those of one of particles.
+/// Of a film of particles.
 const FILM_PARTICLES: &[&str] = &["last-particle-position", "last-particle-exponent", "lattice-slope-ratio"];
-/// That of one with an angle of rest.
+/// Of a film with a contact angle at rest.
 const FILM_ANGLE: &[&str] = &["contact-angle-ratio"];
-/// That of a droplet that rests as a parabola.
+/// Of a droplet whose shape at rest is a parabola.
 const FILM_CAP: &[&str] = &["cap-angle-ratio"];
-/// That of a droplet whose form at rest is known.
+/// Of a droplet whose shape at rest is known.
 const FILM_REST: &[&str] = &["equilibrium-l1-error"];
-/// Those of one with an angle of rest that is no parabola.
+/// Of a film with a contact angle at rest that is not a parabola.
 const FILM_COX_VOINOV: &[&str] = &["cox-voinov-ratio", "cox-voinov-length-m", "cox-voinov-error"];
-/// Those of a droplet that spreads by the similarity solution.
+/// Of a droplet that spreads by the similarity solution.
 const FILM_SIMILARITY: &[&str] = &["similarity-curvature", "similarity-error"];
-/// That of a run with an end by a criterion.
+/// Of a run that can end when steady.
 const STEADY: &[&str] = &["steady-at-s"];
 
-/// Those of a comparison of a direct simulation with a network.
+/// Of a comparison of a direct simulation with a network.
 const COMPARISON: &[&str] = &[
     "mean-overlap",
     "rank-correlation",
@@ -127,8 +127,8 @@ const COMPARISON: &[&str] = &[
     "direct-cpu-s",
 ];
 
-/// All measures that the solver of a model knows, those that the case does not have among them; `geometry` is missing where it was wrong,
-/// `is_steady` where the case has `[time.steady]`.
+/// All measures that the solver of a model has, including those that are absent in this case; `geometry` is missing if it was wrong, `is_steady` is whether the
+/// case has `[time.steady]`.
 pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -> Vec<Offer> {
     let steady = Offer::new(STEADY, "[time.steady]", is_steady);
     match model {
@@ -155,7 +155,7 @@ pub fn offer_of_comparison() -> Offer {
 fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
     let sides = sph.sides.each();
     let has_walls = has_shapes || sides.contains(&Side::Wall);
-    // An interface that is frozen has neither angle nor tension.
+    // A frozen interface has neither angle nor tension.
     let is_frozen = sph.measure.relative_permeability;
     let (has_tension, has_wetting) = (sph.acting_tension() > 0.0, sph.wetting_model.is_some() && !is_frozen);
     let unless_frozen = |given_by| {
@@ -169,7 +169,7 @@ fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
     ]
 }
 
-/// The measures of what passes through the sides.
+/// The measures of the flow through the sides.
 fn of_open_sides(sph: &Sph) -> [Offer; 8] {
     let sides = sph.sides.each();
     let open = || sides.iter().zip(&sph.open).filter_map(|(side, open)| Some((*side, (*open)?)));
@@ -220,7 +220,7 @@ fn of_film(film: &ThinFilm) -> [Offer; 7] {
         Offer::new(FILM_REST, "one partially wetting droplet of the geometric equation", is_known),
         Offer::new(
             FILM_COX_VOINOV,
-            "[thin-film.wetting.partial] where no droplet rests as a parabola",
+            "[thin-film.wetting.partial] where the droplet at rest is not a parabola",
             has_angle && !film.rests_as_cap(),
         ),
         Offer::new(
@@ -231,7 +231,7 @@ fn of_film(film: &ThinFilm) -> [Offer; 7] {
     ]
 }
 
-/// What is wrong with the name of a measure that the case does not have, and a way out; none where the case has it.
+/// What is wrong with the name of a measure that the case does not have, and a remedy; `None` if the case has it.
 pub(crate) fn unmeasured(name: &str, offers: &[Offer]) -> Option<(String, String)> {
     let with_name = || offers.iter().filter(|offer| offer.names.contains(&name));
     if with_name().any(|offer| offer.is_given) {

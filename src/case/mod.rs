@@ -1,8 +1,8 @@
-//! Case files: what the user wrote, checked, with every mistake named at its place.
+//! Case files: read and checked, with every mistake located.
 //!
-//! [`load`] goes from a path to a [`Loaded`] case: TOML -> tables, in which every key is optional, so that one mistake does not hide another
-//! -> checks -> a [`Case`], which holds every value in SI units and in range. A file has a table, what it becomes, the rules between its keys, and the
-//! way back; what each key may hold by itself stands beside the key ([`tables`](crate::input::tables)).
+//! [`load`] goes from a path to a [`Loaded`] case: TOML -> tables, in which every key is optional, so that one mistake does not hide another -> checks -> a
+//! [`Case`], which has every value in SI units and in range. Each file has a table, its checked type, the rules between its keys, and the conversion back; the
+//! allowed values of a single key are declared with the key ([`tables`](crate::input::tables)).
 
 mod case_file;
 mod depth;

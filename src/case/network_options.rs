@@ -1,4 +1,4 @@
-//! What a displacement in the network of a drawing needs beside the drawing: the keys of `[network]` that have an option or a parameter of their own.
+//! Parameters of a displacement in the network of a drawing: the keys of `[network]` that have their own option or parameter.
 
 use serde::Deserialize;
 
@@ -9,12 +9,12 @@ use super::wetting::RawWetting;
 use crate::input::tables::Words;
 use crate::wetting::{Wetting, Young};
 
-/// Tension in N/m where none is given: pressures are then those per N/m of tension.
+/// Default tension in N/m: pressures are then those per N/m of tension.
 const UNIT_TENSION: f64 = 1.0;
-/// Contact angle in degrees where none is given: the wetting phase wets wholly.
+/// Default contact angle in degrees: complete wetting.
 const WHOLLY_WETTING: f64 = 0.0;
 
-/// The keys; what is absent has the default of the case file, but for the two above.
+/// The keys; absent ones have the default of the case file, except for the two above.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct NetworkOptions {
@@ -24,24 +24,24 @@ pub struct NetworkOptions {
     pub(crate) angle_deg: Option<f64>,
     /// Interfacial tension in N/m.
     pub(crate) tension: Option<f64>,
-    /// Side that the invading phase enters through; without one nothing is displaced.
+    /// Side through which the invading phase enters; without one there is no displacement.
     pub(crate) inlet: Option<SideName>,
-    /// Side that the defending phase leaves through.
+    /// Side through which the defending phase leaves.
     pub(crate) outlet: Option<SideName>,
-    /// What is displaced.
+    /// The process.
     pub(crate) process: Option<RawProcess>,
     /// Number of cycles.
     pub(crate) cycles: Option<u32>,
-    /// Whether a defending region without a way to the outlet is trapped.
+    /// Whether a defending region without a path to the outlet is trapped.
     pub(crate) trapping: Option<bool>,
-    /// Whether opposite sides are joined along x and along y.
+    /// Whether the domain is periodic along x and along y.
     pub(crate) periodic: [bool; 2],
-    /// Distance of floor and lid in m.
+    /// Depth of the chip (distance between floor and lid) in m.
     pub(crate) depth: Option<f64>,
 }
 
 impl NetworkOptions {
-    /// Whether menisci matter: something is displaced, or entry pressures are asked for.
+    /// Whether menisci matter: for a displacement, or for entry pressures.
     pub(crate) fn has_interface(&self) -> bool {
         self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()
     }
@@ -65,7 +65,7 @@ impl NetworkOptions {
         }
     }
 
-    /// The same as changes of a case file that has `[network]`.
+    /// The same as overrides of a case file that has `[network]`.
     pub(crate) fn overrides(&self) -> Vec<String> {
         let name = |side: SideName| format!("\"{}\"", side.word());
         let process = |process: RawProcess| format!("\"{}\"", process.word());

@@ -47,17 +47,17 @@ words! {
         Stress,
     }
 
-    /// How viscosity goes on in time.
+    /// Time integration of viscosity.
     pub enum ViscousStep {
         /// By the velocity at the end of the step: no limit of the time step.
         Implicit,
-        /// By the velocity at its beginning: steps are short where the fluid is thick or the spacing fine.
+        /// By the velocity at its start: steps are short for high viscosity or fine spacing.
         Explicit,
     }
 }
 
-/// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and the density-error correction in the pressure equation,
-/// the others by shifting and either that correction or the one by shifting (docs/numerics).
+/// Defaults by the kind of flow. The paper's surface force orders its particles by background pressure and the density-error correction in the
+/// pressure equation, the others by shifting and either that correction or the one by shifting (docs/numerics).
 pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     let (density_error_correction, density_error_shifting, background_pressure, shifting, anti_clustering) =
         match surface_force {
@@ -81,7 +81,7 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     }
 }
 
-/// Defaults of the flows beside a frozen interface: those of one fluid, with particles along the interface.
+/// Defaults of the flows at a frozen interface: those of one fluid, with particles along the interface.
 pub(super) fn beside_frozen_interface() -> Numerics {
     Numerics { fitted_interface: true, ..default(None) }
 }

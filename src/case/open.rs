@@ -1,4 +1,4 @@
-//! `[sph.sides.open]`: what is given at inlets, outlets and periodic sides with a flow, and what cannot work.
+//! `[sph.sides.open]`: prescribed values at inlets, outlets and periodic sides with a flow, and their consistency.
 
 use super::fluid::FluidPhase;
 use super::side::{SIDES, Side, Sides};
@@ -46,39 +46,39 @@ checked_tables! {
 }
 
 words! {
-    /// How the velocity of an inlet is spread over its side.
+    /// Velocity profile of an inlet.
     pub enum Profile {
-        /// The same everywhere.
+        /// Uniform.
         Plug,
         /// A parabola that vanishes at walls.
         Parabolic,
     }
 }
 
-/// What drives the flow through an open side, and what comes in.
+/// The drive of the flow through an open side, and the entering phase.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Open {
-    /// What is given at the side.
+    /// The prescribed quantity.
     pub drive: Drive,
-    /// Whether the phase that comes in is the wetting one; absent: what stands at the side at the start.
+    /// Whether the entering phase is the wetting one; `None`: the initial phase at the side.
     pub enters_wetting: Option<bool>,
-    /// How a given pressure rises in steps.
+    /// Steps of a prescribed pressure.
     pub pressure_steps: Option<PressureSteps>,
 }
 
-/// What is given at an open side.
+/// The prescribed quantity at an open side.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Drive {
     /// A pressure in Pa.
     Pressure(f64),
-    /// The mean velocity inwards in m/s.
+    /// The mean inward velocity in m/s.
     Velocity(f64, Profile),
-    /// The area that comes in per time in m²/s, in a chip with a depth the volume in m³/s.
+    /// The inflow of area per time in m²/s, in a chip with a depth of volume in m³/s.
     FlowRate(f64, Profile),
 }
 
-/// The flow through the left, right, bottom and top side; none where a mistake was found.
+/// The flow through the left, right, bottom and top side; `None` if a mistake was found.
 pub(super) fn open(
     checker: &mut Checker,
     sides: &Sides,
@@ -146,7 +146,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
         return None;
     }
     let count = given.iter().filter(|given| **given).count();
-    // An outlet to the open air needs no more than its name.
+    // An outlet to atmosphere needs no further keys.
     let needed = usize::from(kind != Side::Outlet);
     let is_wrong = given.iter().zip(allowed).any(|(given, allowed)| *given && !allowed);
     if is_wrong || count > 1 || count < needed {
@@ -203,14 +203,14 @@ fn phase(checker: &mut Checker, name: &str, raw: &RawOpenSide, two_phases: bool)
     }
 }
 
-/// A parabola ends at walls; it may have its top on a mirror.
+/// A parabola ends at walls; its maximum may lie on a mirror.
 fn parabola(checker: &mut Checker, side: usize, kinds: [Side; 4]) {
     let across = if side < 2 { [2, 3] } else { [0, 1] };
     if across.iter().any(|&i| kinds[i] == Side::Periodic) || across.iter().all(|&i| kinds[i] == Side::Symmetry) {
         checker.refuse(
             format!("{}.profile", at(SIDES[side])),
             "a parabola needs a wall at one end at least",
-            "use profile = \"plug\", or close the sides beside it",
+            "use profile = \"plug\", or close the adjacent sides",
         );
     }
 }

@@ -1,4 +1,4 @@
-//! `[time]`, `[output]` and `[[expect]]`: how long a run lasts, what is written when, and what must come out. `records` has their checks.
+//! `[time]`, `[output]` and `[[expect]]`: the duration of a run, its output, and its expected results. `records` has their checks.
 
 use super::steady::RawSteady;
 use crate::input::tables::{Key, tables, words};
@@ -48,7 +48,7 @@ tables! {
         pub ratio: f64 => Key::within("grid distance over particle spacing", 0.25, 100.0),
     }
 
-    /// A measure that must come out as said.
+    /// An expected measure.
     pub(crate) struct RawExpectation {
         /// Name of a measure, such as `contact-angle-deg`.
         pub measure: String => Key::required("measure = \"contact-angle-deg\""),
@@ -62,7 +62,7 @@ tables! {
 words! {
     /// How arrays in VTK files are compressed.
     pub enum Compression {
-        /// Not at all: read by every program, the largest files.
+        /// None: read by every program, the largest files.
         None,
         /// By zlib: read by every program.
         Zlib,
@@ -74,19 +74,19 @@ words! {
 /// What is written and when.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Output {
-    /// Time between records of the series in s; of a network, displaced pore volumes. So are the other intervals.
+    /// Time between records of the series in s; for a network, displaced pore volumes, as in the other intervals.
     pub series_every: f64,
     /// Time between VTK files in s, independent of the records of the series.
     pub vtk_every: f64,
     /// How arrays in VTK files are compressed.
     pub vtk_compression: Compression,
-    /// Distance of grid nodes over dx.
+    /// Distance of grid nodes relative to dx.
     pub grid_ratio: f64,
     /// Time between restart files in s.
     pub restart_every: f64,
 }
 
-/// A measure that must come out as said.
+/// An expected measure.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Expectation {
     /// Name of a measure.

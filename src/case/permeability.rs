@@ -1,4 +1,4 @@
-//! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each axis that they let through.
+//! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each periodic axis.
 
 use super::case_file::Model;
 use super::output::Output;
@@ -7,17 +7,17 @@ use super::sph::Sph;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
-/// Fewest records under each force: the last two tell whether the flow is steady.
+/// Fewest records under each force: the last two show whether the flow is steady.
 const FEWEST_RECORDS: f64 = 2.0;
 
-/// Checks what the measure asks of the model.
+/// Checks the requirements of the measure on the model.
 pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometry: Option<&GeometrySpec>) {
     let Some(sph) = measured(model) else { return };
     if sph.non_wetting.is_some() {
         checker.refuse(
             "sph.phases.non-wetting",
             "a permeability is that of one fluid, and there are two: their interface moves or holds them back",
-            "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] beside a frozen interface",
+            "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] with a frozen interface",
         );
     }
     if sph.measure.cylinder_array || sph.measure.poiseuille {
@@ -69,7 +69,7 @@ pub(super) fn no_side_is_driven(checker: &mut Checker, sph: &Sph) -> bool {
     checker.problems.len() == before
 }
 
-/// A force that does not go with the sides.
+/// Refuses a force that is incompatible with the sides.
 fn force(checker: &mut Checker, sph: &Sph) {
     let is_periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
     if is_periodic == [false; 2] {
@@ -99,7 +99,7 @@ fn force(checker: &mut Checker, sph: &Sph) {
     }
 }
 
-/// Checks the records and the end; `end` in s is missing where it was wrong.
+/// Checks the records and the end; `end` in s is missing if it was wrong.
 pub(super) fn records(
     checker: &mut Checker,
     model: Option<&Model>,
@@ -112,13 +112,13 @@ pub(super) fn records(
         checker.refuse(
             "time.steady",
             "sph.gravity turns from x to y at half the time, and a run that ends before has no second column",
-            "leave this out; unsteady-share-x and unsteady-share-y tell how steady both flows are",
+            "leave this out; unsteady-share-x and unsteady-share-y show how steady both flows are",
         );
     }
     few_records(checker, output, end / forces, "under each force");
 }
 
-/// Refuses a series with too few records in a flow of `length` (s), which `named` says where they are.
+/// Refuses a series with too few records in a flow of `length` (s), which the message calls `named`.
 pub(super) fn few_records(checker: &mut Checker, output: &Output, length: f64, named: &str) {
     let most = length / FEWEST_RECORDS;
     if output.series_every > most {
@@ -130,7 +130,7 @@ pub(super) fn few_records(checker: &mut Checker, output: &Output, length: f64, n
     }
 }
 
-/// The direct simulation that asks for its permeability.
+/// The direct simulation whose permeability is requested.
 fn measured(model: Option<&Model>) -> Option<&Sph> {
     match model {
         Some(Model::Sph(sph)) if sph.measure.permeability => Some(sph),

@@ -1,6 +1,6 @@
 //! Properties of common liquids and of air at 20 and 25 degrees Celsius, linear between.
 //!
-//! Values of the usual tables (water: IAPWS; alkanes: NIST), rounded to the digits given; pressure is atmospheric.
+//! Values of the usual tables (water: IAPWS; alkanes: NIST), rounded to the digits given, at atmospheric pressure.
 
 use crate::input::tables::words;
 
@@ -41,7 +41,7 @@ pub struct Properties {
     pub density: f64,
     /// Dynamic viscosity in Pa s.
     pub viscosity: f64,
-    /// Surface tension against air in N/m, where it is tabulated.
+    /// Surface tension against air in N/m, if tabulated.
     pub tension: Option<f64>,
 }
 
@@ -70,15 +70,15 @@ impl Preset {
         Self::Glycerol,
     ];
 
-    /// The properties at `celsius`, from [`COLD`] to [`WARM`]; beyond, those at the nearer end.
+    /// The properties at `celsius`, from [`COLD`] to [`WARM`]; outside, those at the nearer end.
     pub fn at(self, celsius: f64) -> Properties {
         const PER_MILLI: f64 = 1.0e3;
         let (cold, warm) = self.rows();
-        let share = ((celsius - COLD) / (WARM - COLD)).clamp(0.0, 1.0);
-        let between = |a: f64, b: f64| (1.0 - share) * a + share * b;
+        let fraction = ((celsius - COLD) / (WARM - COLD)).clamp(0.0, 1.0);
+        let between = |a: f64, b: f64| (1.0 - fraction) * a + fraction * b;
         let tension = match (cold.2, warm.2) {
             (Some(a), Some(b)) => Some(between(a, b) / PER_MILLI),
-            (None, Some(b)) if share >= 1.0 => Some(b / PER_MILLI),
+            (None, Some(b)) if fraction >= 1.0 => Some(b / PER_MILLI),
             _ => None,
         };
         Properties { density: between(cold.0, warm.0), viscosity: between(cold.1, warm.1) / PER_MILLI, tension }

@@ -1,4 +1,4 @@
-//! The geometry of a case from the file that it names, or as it is written in the case; and texts of files.
+//! The geometry of a case, from its shape file or as written in the case; and texts of files.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -8,22 +8,22 @@ use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Format, Imported, Options};
 use crate::input::{Checker, Document, InputError, Mistake, Overrides, Problem, file};
 
-/// The shape file of the built-in case, as that case names it.
+/// The shape file of the built-in case, as named there.
 const DEFAULT_SHAPES: &str = "../geometries/four-discs.toml";
 const DEFAULT_SHAPES_TEXT: &str = include_str!("../../geometries/four-discs.toml");
 
-/// Where the files of a case come from.
+/// Source of a case and of its files.
 pub(super) enum Origin<'p> {
     Disk(&'p Path),
-    /// The same, with the text of the state that the case begins with, whatever file it names.
+    /// The same, with the text of the initial state of the case, whatever file it names.
     Started(&'p Path, &'p str),
     BuiltIn,
-    /// A text without a file; what it names is looked for in the working folder.
+    /// A text without a file; relative paths refer to the working folder.
     Given,
 }
 
 impl<'p> Origin<'p> {
-    /// The case file, where there is one.
+    /// The case file, if there is one.
     pub(super) fn path(&self) -> Option<&'p Path> {
         match *self {
             Self::Disk(path) | Self::Started(path, _) => Some(path),
@@ -32,12 +32,12 @@ impl<'p> Origin<'p> {
     }
 }
 
-/// The geometry that was read last, so that the cases of a study read the same files once.
+/// The last geometry read, so that the cases of a study read the same files once.
 #[derive(Debug, Default)]
 pub(crate) struct KeptGeometry(Mutex<Option<(RawGeometry, Imported)>>);
 
 impl KeptGeometry {
-    /// What was read for these keys; no other key of `[geometry]` has a part in reading.
+    /// The geometry read for these keys; the other keys of `[geometry]` do not affect reading.
     pub(super) fn find(&self, raw: &RawGeometry) -> Option<Imported> {
         let kept = self.0.lock().ok()?;
         kept.as_ref().filter(|(key, _)| *key == Self::key(raw)).map(|(_, read)| read.clone())
@@ -82,7 +82,7 @@ pub(super) fn read_geometry(
             let spec = shapes::with_domain(checker, read.spec, raw)?;
             let mut notes = read.notes;
             if raw.min.is_some() || raw.max.is_some() {
-                // The case says the domain itself.
+                // The case gives the domain itself.
                 notes.retain(|note| !note.starts_with("domain "));
             }
             Some(Imported { spec, depth: read.depth, notes })
@@ -106,9 +106,9 @@ pub(super) fn read_geometry(
     }
 }
 
-/// Why shapes are not read.
+/// Why shapes cannot be read.
 enum NotRead {
-    /// Keys that tell how the file is read, by name.
+    /// Keys of the import, by name.
     Keys(Vec<Problem>),
     /// The file itself.
     File(InputError),
@@ -131,15 +131,15 @@ impl From<InputError> for NotRead {
     }
 }
 
-/// Where the user should look for a shape file that is not there.
-const BESIDE: &str = "the shape file is looked for beside the case file";
+/// Where a missing shape file is expected.
+const RELATIVE: &str = "its path is relative to the case file";
 
 fn shapes_at(path: &Path, options: &Options, sources: &mut Vec<PathBuf>) -> Result<Imported, NotRead> {
     sources.push(path.to_path_buf());
-    read_shapes(path, options, BESIDE)
+    read_shapes(path, options, RELATIVE)
 }
 
-/// The shapes of a file; `help` tells where the user should look when there is none.
+/// The shapes of a file; `help` is the remedy if it does not exist.
 fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, NotRead> {
     let name = path.display().to_string();
     if Format::of(path) == Some(Format::Toml) {
@@ -158,13 +158,13 @@ fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, N
     })
 }
 
-/// Most parts of a file that are told.
+/// Most refused parts of a file that are reported.
 const MOST_PARTS: usize = 50;
 
-/// A mistake for each part of a file that is refused.
-fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (String, String)) -> InputError {
+/// A mistake for each refused part of a file.
+fn each_part<T>(name: &str, path: &Path, parts: &[T], describe: impl Fn(&T) -> (String, String)) -> InputError {
     let one = |part: &T| {
-        let (message, help) = told(part);
+        let (message, help) = describe(part);
         Mistake::of_file(name, format!("{}, {message}", path.display()), &help)
     };
     let mut mistakes: Vec<Mistake> = parts.iter().take(MOST_PARTS).map(one).collect();
@@ -175,7 +175,7 @@ fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (Stri
     InputError { mistakes }
 }
 
-/// Loads a shape file; the ending of its name says its format.
+/// Loads a shape file; the file extension determines the format.
 ///
 /// # Errors
 /// All mistakes of the file or of the options, or why it cannot be read.
@@ -184,7 +184,7 @@ pub fn load_shapes(path: &Path, options: &Options) -> Result<Imported, InputErro
     read_shapes(path, options, "check the path of the shape file").map_err(|error| error.of_file(&name))
 }
 
-/// The same with the text of a shape file in TOML; `name` is how it is called in messages.
+/// The same with the text of a shape file in TOML; `name` is its name in messages.
 ///
 /// # Errors
 /// All mistakes of the text or of the options.
@@ -207,12 +207,12 @@ fn shape_text(name: &str, text: &str, options: &Options) -> Result<Imported, Not
     Ok(Imported { depth, ..read })
 }
 
-/// The text of a file; `help` tells where the user should look when there is none.
+/// The text of a file; `help` is the remedy if it does not exist.
 pub(crate) fn read(path: &Path, help: &str) -> Result<String, InputError> {
     file::read_text(path).map_err(|error| unreadable(&path.display().to_string(), path, &error, help))
 }
 
-/// The way out where a file is not text.
+/// The remedy if a file is not text.
 const UTF_8: &str = "save it as text in UTF-8; is it the right file?";
 
 fn unreadable(name: &str, path: &Path, error: &std::io::Error, help: &str) -> InputError {

@@ -12,31 +12,31 @@ use crate::input::Checker;
 /// Most records of one kind: more files than a folder should hold.
 const MOST_RECORDS: f64 = 1.0e5;
 
-/// Most nodes of the grid of the output, which has some 25 numbers in each: as many as particles in the largest direct simulation.
+/// Most nodes of the grid of the output, which has about 25 numbers per node: as many as particles in the largest direct simulation.
 const MOST_NODES: f64 = 2.0e7;
 
-/// Records of a run where the case says nothing.
+/// Default number of records of a run.
 const VTK_RECORDS: f64 = 50.0;
 const SERIES_RECORDS: f64 = 200.0;
 const RESTART_RECORDS: f64 = 10.0;
 
-/// Whether the clock of the case counts displaced pore volumes.
+/// Whether the clock of the case is the displaced pore volume.
 fn is_quasi_static(raw: &RawCase) -> bool {
     raw.network.as_ref().is_some_and(|network| network.dynamic.is_none())
 }
 
-/// The end of the simulation in s; of a quasi-static network the most that it can displace, in pore volumes.
+/// The end of the simulation in s; for a quasi-static network the largest displacement in pore volumes.
 pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -> Option<f64> {
     if is_quasi_static(raw) {
         if raw.time.is_some() {
             checker.refuse(
                 "time",
                 "a quasi-static displacement has no time: its clock is the displaced pore volume",
-                "leave out [time]; the displacement ends by itself, or where [network.stop] says; [network.dynamic] makes it one in time",
+                "leave out [time]; the displacement ends when it is complete, or by [network.stop]; [network.dynamic] makes it time-dependent",
             );
         }
         let Some(Model::Network(network)) = model else { return None };
-        // Films go on to the last pressure when all is displaced.
+        // Films continue to the last pressure after the displacement is complete.
         const BEYOND: f64 = 1e-9;
         // No half cycle can displace more than the whole pore space.
         let end =
@@ -47,7 +47,7 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
     checker.require("time.end", end, "end = 0.01 # s")
 }
 
-/// What is written and when; `end` and `size`, width and height of the domain in spacings, are missing where they were wrong.
+/// What is written and when; `end` and `size`, width and height of the domain in spacings, are missing if they were wrong.
 pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, size: Option<[f64; 2]>) -> Output {
     let output = raw.output.clone().unwrap_or_default();
     let by_volume = is_quasi_static(raw);
@@ -58,7 +58,7 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, siz
     if let (Some(ratio), Some(size)) = (ratio, size) {
         grid(checker, ratio, size);
     }
-    // Of a network, each half cycle has as many records as another run.
+    // In a network, each half cycle has as many records as another run.
     let end = if by_volume { end.map(|end| (end, end.max(1.0))) } else { end.map(|end| (end, 1.0)) };
     let clock = if by_volume { &VOLUME } else { &TIME };
     let vtk = output
@@ -75,7 +75,7 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, siz
     }
 }
 
-/// Refuses a grid of too many nodes, and one that has no cell along a side of the domain.
+/// Refuses a grid of too many nodes, and one without a cell along a side of the domain.
 fn grid(checker: &mut Checker, ratio: f64, [width, height]: [f64; 2]) {
     let nodes = width * height / (ratio * ratio);
     if nodes > MOST_NODES {
@@ -88,7 +88,7 @@ fn grid(checker: &mut Checker, ratio: f64, [width, height]: [f64; 2]) {
         );
     }
     let largest = width.min(height);
-    // The domain is a whole number of spacings up to rounding.
+    // The domain is an integer number of spacings up to rounding.
     if ratio > largest * (1.0 + 1e-9) {
         checker.refuse(
             "output.grid.ratio",
@@ -100,7 +100,7 @@ fn grid(checker: &mut Checker, ratio: f64, [width, height]: [f64; 2]) {
     }
 }
 
-/// How intervals between records are written.
+/// Unit and keys of the intervals between records.
 struct RecordClock {
     key: &'static str,
     other: &'static str,
@@ -158,7 +158,7 @@ fn every(
     interval
 }
 
-/// The expectations that are whole; `model` and `geometry` are missing where they were wrong.
+/// The complete expectations; `model` and `geometry` are missing if they were wrong.
 pub(super) fn expectations(
     checker: &mut Checker,
     raw: &RawCase,
@@ -187,7 +187,7 @@ fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Op
     Some(Expectation { measure: raw.measure.clone()?, value: raw.value?, tolerance: raw.tolerance? })
 }
 
-/// Checks `[time.steady]`; `end` in s is missing where it was wrong.
+/// Checks `[time.steady]`; `end` in s is missing if it was wrong.
 pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, output: &Output) -> Option<SteadyStop> {
     let steady = raw.time.as_ref()?.steady.as_ref()?;
     if raw.sph.is_none() {
@@ -216,7 +216,7 @@ pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, out
     Some(found)
 }
 
-/// Three windows must fit into the run, and rows of the series into a window.
+/// Three windows must fit into the run, and enough rows of the series into a window.
 fn check_window(checker: &mut Checker, window: f64, end: f64, series_every: f64) {
     if WINDOWS * window > end {
         checker.refuse(

@@ -9,12 +9,12 @@ use super::side::{SIDES, Side};
 use super::sph::Sph;
 use crate::input::Checker;
 
-/// Flows that follow one another: of the whole pore and of each phase.
+/// Consecutive flows: of the whole pore and of each phase.
 const FLOWS: f64 = 3.0;
 
 const TABLE: &str = "sph.measure.relative-permeability";
 
-/// Checks what the measure asks of the model.
+/// Checks the requirements of the measure on the model.
 pub(super) fn relative_permeability(checker: &mut Checker, model: Option<&Model>) {
     let Some(sph) = measured(model) else { return };
     if sph.non_wetting.is_none() {
@@ -47,7 +47,7 @@ pub(super) fn relative_permeability(checker: &mut Checker, model: Option<&Model>
     }
 }
 
-/// A force that does not go with the sides.
+/// Refuses a force that is incompatible with the sides.
 fn force(checker: &mut Checker, sph: &Sph) {
     let along: Vec<usize> = (0..2).filter(|&axis| sph.gravity[axis] != 0.0).collect();
     let [axis] = along[..] else {
@@ -72,7 +72,7 @@ fn force(checker: &mut Checker, sph: &Sph) {
     }
 }
 
-/// Checks the records and the end; `end` in s is missing where it was wrong.
+/// Checks the records and the end; `end` in s is missing if it was wrong.
 pub(super) fn records(
     checker: &mut Checker,
     model: Option<&Model>,
@@ -84,13 +84,13 @@ pub(super) fn records(
         checker.refuse(
             "time.steady",
             "three flows follow one another, and a run that ends before has no relative permeability",
-            "leave this out; unsteady-share tells how steady the flows are",
+            "leave this out; unsteady-share shows how steady the flows are",
         );
     }
     few_records(checker, output, end / FLOWS, "of each of the three flows");
 }
 
-/// The direct simulation that asks for its relative permeabilities.
+/// The direct simulation whose relative permeabilities are requested.
 fn measured(model: Option<&Model>) -> Option<&Sph> {
     match model {
         Some(Model::Sph(sph)) if sph.measure.relative_permeability => Some(sph),

@@ -1,4 +1,4 @@
-//! What editors and new users start from: the JSON schema of a case file and a commented starter case.
+//! For editors and new users: the JSON schema of a case file and a commented starter case.
 
 use serde_json::{Map, Value, json};
 
@@ -7,18 +7,17 @@ use super::load::load_starter;
 use crate::input::InputError;
 use crate::wetting::laws;
 
-/// Tables that hold exactly one of some tables or keys, each an alternative: the type, and the keys that are none.
+/// Tables with exactly one of several tables or keys, each an alternative: the type, and the keys that are not alternatives.
 const EXACTLY_ONE: [(&str, &[&str]); 4] =
     [("RawFilmEquation", &[]), ("RawSurfaceForce", &[]), ("RawVelocity", &[]), ("RawWetting", &["patches"])];
 
-/// The same of tables that may be empty: then the program chooses.
+/// The same for tables that may be empty: then the program chooses.
 const AT_MOST_ONE: [&str; 2] = ["RawFilmMethod", "RawFilmWetting"];
 
 /// The models of a case, exactly one of them.
 const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
 
-/// The JSON schema of a case file: every key with its unit in its description, the ranges of numbers, and of models that exclude each other a
-/// branch for each.
+/// The JSON schema of a case file: every key with its unit in its description, the ranges of numbers, and a branch for each of several exclusive models.
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(RawCase).to_value();
     without_null(&mut schema);
@@ -46,13 +45,13 @@ pub fn schema() -> Value {
     schema
 }
 
-/// A branch for each key: its name, what it is, and that it is there.
+/// A branch for each key: its name, its description, and that it is present.
 fn branches(properties: &Value, keys: &[&str]) -> Value {
     let branch = |key: &&str| json!({ "title": key, "description": properties[key]["description"], "required": [key] });
     keys.iter().map(branch).collect()
 }
 
-/// TOML has no null: a key is there or it is not.
+/// TOML has no null: a key is present or absent.
 fn without_null(schema: &mut Value) {
     match schema {
         Value::Array(all) => all.iter_mut().for_each(without_null),
@@ -72,7 +71,7 @@ fn without_null(schema: &mut Value) {
                     keys.extend(one);
                 }
             }
-            // A unit stands in the description; `double` and the like tell an editor nothing.
+            // The unit is in the description; `double` and the like are of no use to an editor.
             if keys.get("format").is_some_and(Value::is_string) {
                 keys.remove("format");
             }
@@ -87,12 +86,12 @@ pub fn starter_case() -> &'static str {
     include_str!("starter.toml")
 }
 
-/// The same of a chip with a depth in m.
+/// The same for a chip with a depth in m.
 ///
 /// # Errors
-/// Why there can be no such depth.
+/// Why such a depth is invalid.
 pub(crate) fn starter_of_chip(depth: f64) -> Result<String, InputError> {
-    /// What follows the geometry, with the line between both.
+    /// The text after the geometry, with the line between both.
     const NEXT: &str = "\n[sph]";
     let key = format!("depth = {depth:?} # m, from the floor to the lid\n{NEXT}");
     let text = starter_case().replacen(NEXT, &key, 1);

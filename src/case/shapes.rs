@@ -1,4 +1,4 @@
-//! Domain and solids of a case or of a shape file: which keys go together, and what the shapes themselves say.
+//! Domain and solids of a case or of a shape file: which keys go together, and checks of the shapes.
 
 use std::path::PathBuf;
 
@@ -21,9 +21,9 @@ tables! {
         pub max: [f64; 2],
         /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`).
         pub solid: SolidSide,
-        /// The shapes; overlaps are united.
+        /// The shapes, united.
         pub shapes: Vec<ShapeSpec>,
-        /// Distance of floor and lid in m (default: none); that of a case comes before it.
+        /// Depth of the chip (distance between floor and lid) in m (default: none); that of a case overrides it.
         pub depth: f64 => DEPTH,
     }
 
@@ -33,13 +33,13 @@ tables! {
         pub file: PathBuf,
         /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).
         pub unit: String,
-        /// Drawing unit in m, in place of `unit`.
+        /// Drawing unit in m, instead of `unit`.
         pub scale: f64 => options::SCALE,
         /// Lower left and upper right corner in m of the part that becomes the domain (default: all).
         pub window: [[f64; 2]; 2],
         /// Layers of an SVG or DXF drawing (default: all).
         pub layers: Vec<String>,
-        /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing (default: 1e-6 of its size).
+        /// Distance below which ends of lines of a DXF drawing are joined, in units of the drawing (default: 1e-6 of its size).
         pub join_within: f64 => options::JOIN_WITHIN,
         /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
         pub threshold: f64 => options::THRESHOLD,
@@ -49,13 +49,13 @@ tables! {
         pub invert: bool,
         /// Reads polygons with vertices on a circle as discs (default true).
         pub recognize_circles: bool,
-        /// Polygon corners that turn by less become arcs; 0: none (default 20.0).
+        /// Polygon corners that turn by less than this many degrees become arcs; 0: none (default 20.0).
         pub smooth_below_deg: f64 => options::SMOOTH_BELOW,
         /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
         pub columns: [usize; 3],
         /// Separator of a disc list (default: any usual one).
         pub separator: char,
-        /// The third column of a disc list holds diameters; required if its header names them (default false).
+        /// The third column of a disc list is the diameter; required if its header names them (default false).
         pub diameters: bool,
         /// Lower left corner of the domain in m (default: that of the file).
         pub min: [f64; 2],
@@ -65,18 +65,18 @@ tables! {
         pub solid: SolidSide,
         /// The shapes, united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
-        /// Distance of floor and lid in m (default: that of a TOML shape file; without one everything is per meter of depth).
+        /// Depth of the chip (distance between floor and lid) in m (default: that of a TOML shape file; without one all results are per meter of depth).
         pub depth: f64 => DEPTH,
         /// Distance in m by which every wall of the drawing moves into the pore; below 0 into the solid (default 0.0).
         pub etch_offset: f64,
     }
 }
 
-/// Distance of floor and lid.
+/// Depth of a chip (distance between floor and lid).
 pub(crate) const DEPTH: Key =
     Key::positive("a depth in m").help("an etched or molded chip has 20e-6 to 400e-6; leave it out for a plane");
 
-/// The geometry of a shape file, and its depth in m where it has one.
+/// The geometry of a shape file, and its depth in m if it has one.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<(GeometrySpec, Option<f64>)> {
     let raw = raw.in_range(checker, "");
     checker.format(raw.format);
@@ -109,7 +109,7 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
     (checker.problems.len() == before).then_some(spec)
 }
 
-/// The shapes with generators replaced by the discs that they make, each with the index that it is written at.
+/// The shapes with generators expanded to discs, each with its index in the file.
 fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<(usize, ShapeSpec)> {
     let mut plain = Vec::new();
     for (index, shape) in shapes.iter().enumerate() {
@@ -124,7 +124,7 @@ fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<(usize
     plain
 }
 
-/// The path of a problem with the index that its shape is written at.
+/// The path of a problem with the index of its shape in the file.
 fn in_file(path: &str, written: &[usize]) -> String {
     let parts = path.strip_prefix("shapes[").and_then(|rest| rest.split_once(']'));
     match parts.and_then(|(index, rest)| Some((written.get(index.parse::<usize>().ok()?)?, rest))) {
@@ -133,7 +133,7 @@ fn in_file(path: &str, written: &[usize]) -> String {
     }
 }
 
-/// Refuses keys that belong to the file where a file is named.
+/// Refuses keys that belong into the file if there is one.
 pub(super) fn refuse_keys_of_file(checker: &mut Checker, raw: &RawGeometry) {
     let shapes = "put the shapes into the file, or write them all here and leave out `file`";
     let solid = "set `solid` in a TOML shape file; of other files `invert = true` makes the pore of what is drawn";
@@ -149,7 +149,7 @@ pub(super) fn refuse_keys_of_file(checker: &mut Checker, raw: &RawGeometry) {
     }
 }
 
-/// Refuses keys that tell how a file is read where no file is named.
+/// Refuses keys of the import if there is no file.
 pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
     let given = [
         ("unit", raw.unit.is_some()),
@@ -176,7 +176,7 @@ pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
     }
 }
 
-/// How the file of a case is read.
+/// Import options of the file of a case.
 pub(super) fn options(raw: &RawGeometry) -> Options {
     Options {
         unit: raw.unit.clone(),
@@ -195,7 +195,7 @@ pub(super) fn options(raw: &RawGeometry) -> Options {
     }
 }
 
-/// What becomes of shapes beyond the sides of a window: left, right, bottom, top.
+/// Treatment of shapes beyond the sides of a window: left, right, bottom, top.
 pub(super) fn beyond(sides: Option<&RawSides>) -> [Beyond; 4] {
     let Some(sides) = sides else { return [Beyond::Whole; 4] };
     [sides.left, sides.right, sides.bottom, sides.top].map(|side| match side {
@@ -205,7 +205,7 @@ pub(super) fn beyond(sides: Option<&RawSides>) -> [Beyond; 4] {
     })
 }
 
-/// The same of a network, which cuts walls at its open sides itself.
+/// The same for a network, which cuts walls at its open sides itself.
 pub(super) fn beyond_network(sides: Option<&RawNetworkSides>) -> [Beyond; 4] {
     let sides = sides.cloned().unwrap_or_default();
     [sides.left, sides.right, sides.bottom, sides.top].map(|side| match side {
@@ -214,14 +214,14 @@ pub(super) fn beyond_network(sides: Option<&RawNetworkSides>) -> [Beyond; 4] {
     })
 }
 
-/// The geometry of a file with the domain that the case puts in its place.
+/// The geometry of a file with the domain replaced by that of the case.
 pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &RawGeometry) -> Option<GeometrySpec> {
     let before = checker.problems.len();
     spec.min = raw.min.unwrap_or(spec.min);
     spec.max = raw.max.unwrap_or(spec.max);
     if raw.min.is_some() || raw.max.is_some() {
         for problem in spec.problems() {
-            // The shapes were right in their file, so that what is wrong now is the domain.
+            // The shapes were valid in their file, so the domain is wrong.
             let key = if raw.max.is_some() { "geometry.max" } else { "geometry.min" };
             let help = format!("{}; `window` in place of `min` and `max` leaves out what lies outside", problem.help);
             checker.refuse(key, problem.message, help);
@@ -230,7 +230,7 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
     (checker.problems.len() == before).then_some(spec)
 }
 
-/// The geometry with its walls moved by an etch offset in m, where there is one.
+/// The geometry with its walls moved by an etch offset in m, if there is one.
 pub(super) fn etched(checker: &mut Checker, spec: GeometrySpec, offset: Option<f64>) -> Option<GeometrySpec> {
     const KEY: &str = "geometry.etch-offset";
     let Some(offset) = offset.filter(|offset| *offset != 0.0) else { return Some(spec) };

@@ -1,13 +1,13 @@
-//! The four sides of a domain and what can stand at them.
+//! The four sides of a domain and their kinds.
 
 use crate::input::tables::words;
 
 words! {
-    /// What stands at a side.
+    /// Kind of a side.
     pub enum Side {
-        /// Joined to the opposite side.
+        /// Periodic with the opposite side.
         Periodic,
-        /// A solid no-slip wall; contact lines may stand on it.
+        /// A solid no-slip wall, which can have contact lines.
         Wall,
         /// A no-slip wall by image particles; no contact angle is set on it.
         Image,

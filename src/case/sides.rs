@@ -1,4 +1,4 @@
-//! `[sph.sides]` and `[sph.walls]`: what stands at the sides of the domain, and what walls are like.
+//! `[sph.sides]` and `[sph.walls]`: the sides of the domain, and the properties of walls.
 
 use super::open::{Open, RawOpenSides, raw_open};
 use super::side::{Side, Sides};
@@ -16,13 +16,13 @@ tables! {
         pub bottom: Side,
         /// Kind of the side (default `wall`).
         pub top: Side,
-        /// Speed of each wall side along itself (default: at rest).
+        /// Tangential speed of each wall side (default: at rest).
         pub speed: RawWallSpeeds,
-        /// What drives the flow through open sides, and what enters.
+        /// Drive of the flow through open sides, and the entering phase.
         pub open: RawOpenSides,
     }
 
-    /// Speeds of the walls at the sides, each along itself.
+    /// Tangential speeds of the walls at the sides.
     pub(crate) struct RawWallSpeeds {
         /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub left: f64,
@@ -34,7 +34,7 @@ tables! {
         pub top: f64,
     }
 
-    /// What all walls are like, those of shapes and those at the sides.
+    /// Properties of all walls, those of shapes and those at the sides.
     pub(crate) struct RawWalls {
         /// Navier slip length of all walls in m (default 0.0).
         pub slip_length: f64 => Key::not_negative("a slip length in m"),
@@ -43,7 +43,7 @@ tables! {
     }
 }
 
-/// What all walls are like, those of shapes and those at the sides.
+/// Properties of all walls, those of shapes and those at the sides.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Walls {
     /// Navier's slip length in m.
@@ -94,7 +94,7 @@ pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
     })
 }
 
-/// Slip lengths; `has_lines` where contact lines can stand on the walls, `spacing` in m.
+/// Slip lengths; `has_lines` is whether there can be contact lines on the walls, `spacing` in m.
 pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spacing: Option<f64>) -> Walls {
     const LINE: &str = "sph.walls.line-slip-length";
     if checker.is_given(LINE, raw.line_slip_length.as_ref()) && !has_lines {
@@ -104,11 +104,11 @@ pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spac
             "add [sph.wetting.young], or leave this out",
         );
     }
-    // A contact line on walls of which nothing is said slips by a spacing, so that it does not run over the particles next to them.
-    let unsaid = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
+    // By default, a contact line slips by a spacing, so that it does not run over the adjacent particles.
+    let default = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
     Walls {
         slip_length: raw.slip_length.unwrap_or_default(),
-        line_slip_length: raw.line_slip_length.or(raw.slip_length).unwrap_or(unsaid),
+        line_slip_length: raw.line_slip_length.or(raw.slip_length).unwrap_or(default),
     }
 }
 

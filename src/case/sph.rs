@@ -24,8 +24,8 @@ tables! {
         pub spacing: f64 => Key::positive("a spacing in m").example("spacing = 2.0e-5 # m"),
         /// Smoothing length over spacing, `h/dx` (default 1.5).
         pub smoothing_ratio: f64 => Key::within("smoothing length over spacing", 1.0, 3.0),
-        /// With `geometry.depth`: factor of the profile over the depth in inertia and in the viscous stress in the plane (default: that with which a duct as wide
-        /// as the median throat has its flow, 1 in a deep and 1.2 in a shallow one).
+        /// With `geometry.depth`: factor of the velocity profile across the depth in inertia and in the in-plane viscous stress (default: that at which a duct
+        /// as wide as the median throat has its exact flow rate, 1 in a deep and 1.2 in a shallow one).
         pub profile_factor: f64 => Key::within("a factor", 1.0, 2.0),
         /// Length of the dimensionless numbers in m (default: the shorter of narrowest throat and root of the drop
         /// area; else the shorter side).
@@ -62,54 +62,54 @@ pub struct Sph {
     pub smoothing_ratio: f64,
     /// The phase through which angles are measured, color 1.
     pub wetting: Fluid,
-    /// The other phase, color 0; absent in single-phase flow.
+    /// The other phase, color 0; `None` in single-phase flow.
     pub non_wetting: Option<Fluid>,
     /// Interfacial tension in N/m; 0 in single-phase flow.
     pub tension: f64,
-    /// Distance of floor and lid in m; absent in the plane.
+    /// Depth of the chip (distance between floor and lid) in m; `None` in the plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<f64>,
-    /// Factor of the profile over the depth in inertia and in the viscous stress in the plane, where the case gives one.
+    /// Factor of the velocity profile across the depth in inertia and in the in-plane viscous stress, if the case gives one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile_factor: Option<f64>,
-    /// Form of the surface force; absent where the tension is 0.
+    /// Form of the surface force; `None` if the tension is 0.
     pub surface_force: Option<SurfaceForce>,
-    /// Wetting model; absent: no line force.
+    /// Wetting model; `None`: no line force.
     pub wetting_model: Option<Wetting>,
-    /// Parts of the walls with angles of their own.
+    /// Parts of the walls with their own contact angles.
     pub wetting_patches: Vec<WettingPatch>,
-    /// The length L of the dimensionless numbers in m, where the case gives one.
+    /// The characteristic length L of the dimensionless numbers in m, if the case gives one.
     pub reference_length: Option<f64>,
     /// Body force per mass in m/s².
     pub gravity: Vec2,
-    /// What stands at the four sides of the domain.
+    /// The four sides of the domain.
     pub sides: Sides,
-    /// What all walls are like.
+    /// Properties of all walls.
     pub walls: Walls,
     /// Speeds in m/s of the walls at the left, right, bottom and top side, along x or y.
     pub wall_speeds: [f64; 4],
-    /// What drives the flow through the left, right, bottom and top side, where it is open or periodic with a given flow.
+    /// The drive of the flow through the left, right, bottom and top side, if it is open or periodic with a prescribed flow.
     pub open: [Option<Open>; 4],
     /// Initial phases and velocity.
     pub initial: Initial,
     /// Parameters of the method with a default that rarely needs a change (`[sph.numerics]`).
     pub numerics: Numerics,
-    /// What the report measures beyond what every run has (`[sph.measure]`).
+    /// Groups of measures in addition to those of every run (`[sph.measure]`).
     pub measure: MeasureSet,
 }
 
 impl Sph {
-    /// The tension in N/m of an interface that moves; 0 where it is frozen.
+    /// The tension in N/m of a moving interface; 0 if it is frozen.
     pub(crate) fn acting_tension(&self) -> f64 {
         if self.measure.relative_permeability { 0.0 } else { self.tension }
     }
 
-    /// Distance of floor and lid in m; 1 in the plane, where rates are those per meter of depth.
+    /// Depth of the chip in m; 1 in the plane, where rates are those per meter of depth.
     pub(crate) fn thickness(&self) -> f64 {
         self.depth.unwrap_or(1.0)
     }
 
-    /// Whether contact lines slip by a spacing, with an angle that does not make up for it.
+    /// Whether contact lines slip by a spacing, with an angle that does not compensate for it.
     pub(crate) fn has_lines_that_slip_by_a_spacing(&self) -> bool {
         let law = self.wetting_model.filter(|law| !matches!(law, Wetting::Cox(_) | Wetting::CoxVoinov(_)));
         law.is_some()
@@ -128,7 +128,7 @@ const MOST_PARTICLES: f64 = 2.0e7;
 /// Fewest particles across the domain: below, the kernels of opposite sides overlap.
 const FEWEST_ACROSS: f64 = 10.0;
 
-/// Checks `[sph]`; `geometry` is missing where it was wrong.
+/// Checks `[sph]`; `geometry` is missing if it was wrong.
 pub(super) fn sph(
     checker: &mut Checker,
     raw: &RawSph,

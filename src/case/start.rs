@@ -1,4 +1,4 @@
-//! Reads the state of a network that a case begins with, and holds it against the geometry of the case.
+//! Reads the state of a network from which a case starts, and checks it against the geometry of the case.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,19 +9,19 @@ use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, file};
 use crate::math::{FNV1A_BASIS, fnv1a};
 
-/// What to do about a file that is no state.
+/// Advice for a file that is not a state.
 const WRITE: &str =
     "a run of [network] with an inlet writes at-end.json and, where it breaks through, at-breakthrough.json";
 
-/// The key that names a state, and the file.
+/// The key of a state file, and the file.
 fn named(raw: &RawCase) -> Option<(&'static str, &Path)> {
     let of_sph = raw.sph.as_ref().and_then(|sph| sph.initial.as_ref()?.network.as_deref());
     let of_network = raw.network.as_ref().and_then(|network| network.initial.as_deref());
     of_sph.map(|file| ("sph.initial.network", file)).or(of_network.map(|file| ("network.initial", file)))
 }
 
-/// The state that the case begins with: `given` in place of the file that it names, which is looked for beside the case file in `folder`; none where
-/// none is named, or where it is refused.
+/// The initial state of the case: `given` instead of its file, which is relative to the `folder` of the case file; `None` if the case names none, or if it is
+/// refused.
 pub(super) fn start(
     checker: &mut Checker,
     raw: &RawCase,
@@ -47,7 +47,7 @@ pub(super) fn start(
                 std::io::ErrorKind::NotFound => format!("there is no file {}", path.display()),
                 _ => format!("{} cannot be read: {error}", path.display()),
             };
-            checker.refuse(key, what, format!("{WRITE}; it is looked for beside the case file"));
+            checker.refuse(key, what, format!("{WRITE}; its path is relative to the case file"));
             return None;
         }
     };
@@ -67,7 +67,7 @@ pub(super) fn start(
         checker.refuse(key, message, help);
         return None;
     }
-    // So that a saved run tells a changed file.
+    // So that a saved run detects a changed file.
     let digest = fnv1a(FNV1A_BASIS, text.bytes());
     Some(Start { file: path, digest: format!("{digest:016x}"), state: Arc::new(state) })
 }

@@ -3,8 +3,7 @@
 use crate::input::tables::{Key, tables};
 
 tables! {
-    /// When a simulation counts as steady: what is left to change of each quantity, and how far it moves within the last
-    /// window, are both below its tolerance.
+    /// When a simulation counts as steady: the remaining change of each quantity, and its range within the last window, are both below its tolerance.
     pub(crate) struct RawSteady {
         /// Length in s of each of the three compared windows: at least five records, at most a third of the end
         /// (default: a fifth of the elapsed time).
@@ -15,16 +14,16 @@ tables! {
         pub capillary_pressure: f64 => Key::within("a change over the value", 1.0e-9, 1.0),
         /// Tolerance of the saturation (default 0.001).
         pub saturation: f64 => Key::within("a change", 1.0e-9, 1.0),
-        /// Viscosity times speed over tension below which particles rest (default 1e-4).
+        /// Viscosity times speed over tension below which particles are at rest (default 1e-4).
         pub capillary_number: f64 => Key::within("a capillary number", 0.0, 1.0),
-        /// Relative tolerance of the kinetic energy of flows that do not rest (default 0.005).
+        /// Relative tolerance of the kinetic energy of flows that do not come to rest (default 0.005).
         pub kinetic_energy: f64 => Key::within("a change over the value", 1.0e-9, 1.0),
         /// Ends the run when steady, or only reports the time (default true).
         pub stop: bool,
     }
 }
 
-/// Fewest rows of the series in a window: fewer tell no spread.
+/// Fewest rows of the series in a window: fewer do not show the range.
 pub(crate) const FEWEST_ROWS: f64 = 5.0;
 
 /// Windows that are compared.
@@ -33,17 +32,17 @@ pub(crate) const WINDOWS: f64 = 3.0;
 /// When a run counts as steady, and whether it then ends.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct SteadyStop {
-    /// Length in s of each of the three windows; absent: a share of the time so far.
+    /// Length in s of each of the three windows; `None`: a fraction of the elapsed time.
     pub window: Option<f64>,
     /// Tolerance of the contact angle in rad.
     pub contact_angle: f64,
-    /// Tolerance of the capillary pressure over its value.
+    /// Relative tolerance of the capillary pressure.
     pub capillary_pressure: f64,
     /// Tolerance of the saturation.
     pub saturation: f64,
     /// Largest viscosity × speed/tension at which all particles count as at rest.
     pub capillary_number: f64,
-    /// Tolerance of the kinetic energy over its value.
+    /// Relative tolerance of the kinetic energy.
     pub kinetic_energy: f64,
     /// Whether the run ends when it is steady.
     pub stop: bool,

@@ -44,17 +44,17 @@ words! {
 pub enum SurfaceForce {
     /// Continuum surface force [Huber2013, Eq. 20].
     Csf {
-        /// How the force of a contact line is spread.
+        /// Distribution of the contact line force.
         line_delta: LineDelta,
     },
     /// Pressure jump across a sharp interface.
     PressureJump {
-        /// Curvature in 1/m of all interfaces, fitted where there is none.
+        /// Curvature in 1/m of all interfaces, fitted if `None`.
         curvature: Option<f64>,
     },
 }
 
-/// The surface force of a case that names none.
+/// The default surface force.
 const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::PressureJump { curvature: None };
 
 /// Tension and surface force of two fluids; no force without a tension.
@@ -92,7 +92,7 @@ pub(super) fn interface(
 pub(super) fn raw_surface_force(force: SurfaceForce) -> RawSurfaceForce {
     match force {
         SurfaceForce::Csf { line_delta } => {
-            // The one that is meant by default is not named.
+            // The default is omitted.
             let line_delta = Some(line_delta).filter(|delta| *delta != LineDelta::Normalized);
             RawSurfaceForce { csf: Some(RawCsf { line_delta }), pressure_jump: None }
         }

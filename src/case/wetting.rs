@@ -1,5 +1,4 @@
-//! `[sph.wetting]` and `[network.wetting]`: which model, with which angles, on which part of the walls. The tables of the models are in
-//! `crate::wetting`.
+//! `[sph.wetting]` and `[network.wetting]`: the model, its angles, and the walls they apply to. The tables of the models are in `crate::wetting`.
 
 use super::side::{SIDES, Side, SideName, Sides};
 use crate::geometry::spec::GeometrySpec;
@@ -12,7 +11,7 @@ use crate::wetting::{self, Wetting};
 pub(crate) type RawWetting = wetting::RawWetting<RawWettingPatch>;
 
 tables! {
-    /// A part of the walls with angles of its own: those of the model.
+    /// A part of the walls with its own angles, those of the model.
     pub(crate) struct RawWettingPatch {
         /// Shape whose surface is the patch, counted from 0; not with `side` (default: all walls).
         pub shape: u32,
@@ -44,7 +43,7 @@ tables! {
 }
 
 words! {
-    /// What bounds a chip below and above.
+    /// Floor or lid of a chip.
     pub enum Plate {
         /// The floor.
         Floor,
@@ -61,24 +60,24 @@ words! {
     }
 }
 
-/// A part of the walls with angles of its own (`[[sph.wetting.patches]]`); later ones lie over earlier ones.
+/// A part of the walls with its own angles (`[[sph.wetting.patches]]`); later ones override earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct WettingPatch {
-    /// Which walls.
+    /// The walls.
     pub on: PatchedWall,
-    /// Which part of them; absent: all.
+    /// The part of them; `None`: all.
     pub stripes: Option<Stripes>,
     /// The model with the angles of the patch.
     pub model: Wetting,
 }
 
-/// The walls that a patch lies on.
+/// The walls of a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PatchedWall {
     /// All of them.
     All,
-    /// A shape by its number, from 0 on.
+    /// A shape by its index, from 0.
     Shape(u32),
     /// The left, right, bottom or top side, 0 to 3.
     Side(u32),
@@ -86,20 +85,20 @@ pub enum PatchedWall {
     Plate(Plate),
 }
 
-/// Stripes across an axis: where the coordinate less `start`, modulo `period`, is below `width`.
+/// Stripes across an axis: where (coordinate − `start`) modulo `period` is below `width`.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Stripes {
     /// 0: along x, 1: along y.
     pub axis: usize,
-    /// Where one of them begins, in m.
+    /// Start of a stripe in m.
     pub start: f64,
     /// Width in m.
     pub width: f64,
-    /// From one to the next in m; absent: a single stripe.
+    /// Distance from one to the next in m; `None`: a single stripe.
     pub period: Option<f64>,
 }
 
-/// The angles that floor and lid have by `angle`: those of all walls where no patch says otherwise.
+/// The angles of floor and lid by `angle`: those of all walls unless a patch overrides them.
 pub(crate) fn on_plates(model: &Wetting, patches: &[WettingPatch], angle: impl Fn(&Wetting) -> f64) -> [f64; 2] {
     [Plate::Floor, Plate::Lid].map(|plate| {
         let lies_there = |patch: &&WettingPatch| match patch.on {
@@ -119,9 +118,9 @@ impl Stripes {
     }
 }
 
-/// The wetting model of a case, none where there is no table or it is wrong.
+/// The wetting model of a case, `None` if there is no table or it is wrong.
 ///
-/// `table` is where it is written: `sph.wetting` or `network.wetting`.
+/// `table` is its key path: `sph.wetting` or `network.wetting`.
 pub(super) fn model(
     checker: &mut Checker,
     table: &str,
@@ -150,7 +149,7 @@ pub(super) fn model(
     Some(model)
 }
 
-/// The patches that are whole; `sides` and `geometry` are missing where they were wrong.
+/// The complete patches; `sides` and `geometry` are missing if they were wrong.
 pub(super) fn patches(
     checker: &mut Checker,
     table: &str,
@@ -260,7 +259,7 @@ fn stripes(checker: &mut Checker, at: &str, raw: &RawStripes) -> Option<Stripes>
     Some(Stripes { axis, start: raw.start.unwrap_or_default(), width, period: raw.period })
 }
 
-/// Model and patches as they are written.
+/// Model and patches as written.
 pub(super) fn raw(model: &Wetting, patches: &[WettingPatch]) -> RawWetting {
     RawWetting::of(model, (!patches.is_empty()).then(|| patches.iter().map(raw_patch).collect()))
 }

@@ -1,4 +1,4 @@
-//! What can be written on the command line.
+//! The arguments of the command line.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
 
-/// Exit codes, as the help tells them.
+/// Exit codes, as in the help.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \
                           5 expectation failed, 130 interrupted";
 
@@ -27,7 +27,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3
 #[derive(Debug, Parser)]
 #[command(name = "meniscus", version, after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
     /// Print results and errors only: no progress, notes or warnings
@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run a case: from a case file to VTK files, a series, a picture and a report
     Run(RunArguments),
-    /// Tell everything that can be told before a run: mistakes, particles, time step, dimensionless numbers, duration
+    /// Report everything that is known before a run: mistakes, particles, time step, dimensionless numbers, duration
     Check(CheckArguments),
     /// Measure a shape file or the geometry of a case: porosity, specific surface, throats; write its outline and signed distance
     Geometry(GeometryArguments),
@@ -74,10 +74,10 @@ pub(crate) struct CheckArguments {
     /// Change a value of the case
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) overrides: Vec<String>,
-    /// Tell what a run would take as JSON, for other programs
+    /// Print the estimated cost of a run as JSON, for other programs
     #[arg(long)]
     pub(crate) json: bool,
-    /// Number of threads; all cores where there is none
+    /// Number of threads; all cores if not given
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
@@ -90,16 +90,16 @@ pub(crate) struct GeometryArguments {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) import: ImportArguments,
-    /// Distance of floor and lid in m; where there is none, that of the file, or everything is per meter of depth
+    /// Depth of the chip (distance between floor and lid) in m; if not given, that of the file, or all results are per meter of depth
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     pub(crate) depth: Option<f64>,
-    /// Sides of a shape file that are joined; none where it is not given
+    /// Periodic axes of a shape file; none if not given
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
-    /// Number of threads; all cores where there is none
+    /// Number of threads; all cores if not given
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
-    /// Folder for outline, signed distance and picture; nothing is written where there is none
+    /// Folder for outline, signed distance and picture; nothing is written if not given
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
@@ -112,7 +112,7 @@ pub(crate) struct WriteArguments {
     /// Write the shapes as a drawing: .svg, .dxf, .wkt, .geojson, .xyr, .toml, .vtu, or a mask as .png; may be given several times
     #[arg(long, value_name = "FILE")]
     pub(crate) write: Vec<PathBuf>,
-    /// Side of a pixel of a mask in m; where there is none the longer side has 2048
+    /// Side of a pixel of a mask in m; if not given, the longer side has 2048
     #[arg(long, value_name = "M")]
     pub(crate) mask_pixel: Option<f64>,
 }
@@ -120,7 +120,7 @@ pub(crate) struct WriteArguments {
 /// `network`.
 #[derive(Debug, Args)]
 pub(crate) struct NetworkArguments {
-    /// What else is done with a network
+    /// Further commands on a network
     #[command(subcommand)]
     pub(crate) command: Option<NetworkCommand>,
     /// Shape file, or a case file
@@ -135,38 +135,38 @@ pub(crate) struct NetworkArguments {
     /// Interfacial tension in N/m (default 1, so that pressures are those per N/m)
     #[arg(long, value_name = "N_PER_M")]
     pub(crate) tension: Option<f64>,
-    /// Side that the invading phase enters through; where there is none, the network is extracted and nothing is displaced
+    /// Side through which the invading phase enters; if not given, the network is extracted and nothing is displaced
     #[arg(long, value_parser = word::<SideName>(), value_name = "SIDE")]
     pub(crate) inlet: Option<SideName>,
-    /// Side that the defending phase leaves through
+    /// Side through which the defending phase leaves
     #[arg(long, value_parser = word::<SideName>(), value_name = "SIDE")]
     pub(crate) outlet: Option<SideName>,
-    /// What is displaced (default drainage)
+    /// The displacement (default drainage)
     #[arg(long, value_parser = word::<RawProcess>(), value_name = "PROCESS")]
     pub(crate) process: Option<RawProcess>,
     /// Number of cycles, with --process cycle (default 1)
     #[arg(long, value_name = "N")]
     pub(crate) cycles: Option<u32>,
-    /// Whether a defending region without a way to the outlet is trapped (default true)
+    /// Whether a defending region without a path to the outlet is trapped (default true)
     #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
     pub(crate) trapping: Option<bool>,
-    /// Joins opposite sides
+    /// Makes opposite sides periodic
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
-    /// Distance of floor and lid in m; where there is none, that of the file, or everything is per meter of depth
+    /// Depth of the chip (distance between floor and lid) in m; if not given, that of the file, or all results are per meter of depth
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     pub(crate) depth: Option<f64>,
-    /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
+    /// Output folder, new or empty; if not given: out/NAME-network, out/NAME-network-2, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Number of threads; all cores where there is none. The results do not depend on it
+    /// Number of threads; all cores if not given. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
     #[command(flatten)]
     pub(crate) import: ImportArguments,
 }
 
-/// Reads a word as a key of a case file has it.
+/// Parses a word as in a case file.
 fn word<W: Words + Send + Sync>() -> impl TypedValueParser<Value = W> {
     let words =
         W::ALL.iter().map(|(word, about)| PossibleValue::new(word.word()).help(about.trim().trim_end_matches('.')));
@@ -174,7 +174,7 @@ fn word<W: Words + Send + Sync>() -> impl TypedValueParser<Value = W> {
     PossibleValuesParser::new(words).try_map(move |name| named(name).ok_or("unknown word"))
 }
 
-/// Axes along which opposite sides are joined.
+/// Periodic axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PeriodicAxes {
     /// Left and right
@@ -186,7 +186,7 @@ pub(crate) enum PeriodicAxes {
 }
 
 impl PeriodicAxes {
-    /// Whether x and y are among them.
+    /// Whether x and y are periodic.
     pub(crate) fn along(self) -> [bool; 2] {
         [self != Self::Y, self != Self::X]
     }
@@ -195,9 +195,9 @@ impl PeriodicAxes {
 /// `new`.
 #[derive(Debug, Args)]
 pub(crate) struct NewArguments {
-    /// File to write, which must not exist; case.toml, or pack.toml with --pack, where there is none
+    /// File to write, which must not exist; if not given, case.toml, or pack.toml with --pack
     pub(crate) file: Option<PathBuf>,
-    /// Distance of floor and lid in m, which the file then has
+    /// Depth of the chip (distance between floor and lid) in m, written to the file
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     pub(crate) depth: Option<f64>,
     #[command(flatten)]
@@ -207,40 +207,40 @@ pub(crate) struct NewArguments {
 /// `new --pack`.
 #[derive(Debug, Args)]
 pub(crate) struct PackArguments {
-    /// Write a shape file of generated grains in place of a case
+    /// Write a shape file of generated grains instead of a case
     #[arg(long, value_enum, value_name = "KIND")]
     pub(crate) pack: Option<PackKind>,
-    /// Chooses the random pack
+    /// Seed of a random pack
     #[arg(long, default_value = "1", requires = "pack")]
     pub(crate) seed: u64,
     /// Share of a random pack that is not solid
     #[arg(long, default_value = "0.6", requires = "pack")]
     pub(crate) porosity: f64,
-    /// Radius in m, the mean one of a random pack
+    /// Radius in m, the mean of a random pack
     #[arg(long, value_name = "M", default_value = "1e-4", requires = "pack")]
     pub(crate) radius: f64,
-    /// Standard deviation of the radii of a random pack over their mean, 0 to 0.35
+    /// Standard deviation of the radii of a random pack relative to their mean, 0 to 0.35
     #[arg(long, default_value = "0", requires = "pack")]
     pub(crate) radius_deviation: f64,
-    /// Smallest gap between grains in m; of a cosine throat its width
+    /// Smallest gap between grains in m; of a cosine throat, its width
     #[arg(long, value_name = "M", default_value = "2e-5", requires = "pack")]
     pub(crate) gap: f64,
     /// Width and height of the pack in m
     #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 1, default_values_t = [5e-3, 3e-3], requires = "pack")]
     pub(crate) size: Vec<f64>,
-    /// Axes along which a random pack repeats itself
+    /// Periodic axes of a random pack
     #[arg(long, value_enum, default_value = "none", requires = "pack")]
     pub(crate) periodic: PackPeriodic,
 }
 
-/// What is generated.
+/// Kinds of packs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PackKind {
-    /// Discs at random places
+    /// Discs at random positions
     Random,
-    /// Discs on the corners of squares
+    /// Discs on a square lattice
     Square,
-    /// Discs on the corners of equal triangles
+    /// Discs on a hexagonal lattice
     Hexagonal,
     /// A channel with a cosine constriction
     Cosine,
@@ -264,7 +264,7 @@ pub(crate) enum PackPeriodic {
 /// `schema`.
 #[derive(Debug, Args)]
 pub(crate) struct SchemaArguments {
-    /// Print that of a study file
+    /// Print the schema of a study file
     #[arg(long)]
     pub(crate) study: bool,
 }

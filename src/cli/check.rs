@@ -1,4 +1,4 @@
-//! `meniscus check`: builds the solver, does a few steps without any file, and tells what a run would be like.
+//! `meniscus check`: builds the solver, does a few steps without any file, and reports what a run would be like.
 
 use super::arguments::CheckArguments;
 use super::exit::{BUG, DONE, Failure, SOLVER_FAILED};
@@ -18,7 +18,7 @@ use crate::solver::Solver;
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
 
-/// Tells what a run of the case would be like.
+/// Reports what a run of the case would be like.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
@@ -37,14 +37,14 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         if let Some(memory) = found.memory_bytes {
             say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
         }
-        // Steps in time end at events, which are not known before.
+        // Time steps end at events, which are not known in advance.
         match network.is_dynamic() {
             true => say(format_args!("  run         until {} s, or where [network.stop] says", readable(case.end))),
             false => {
                 say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s)))
             }
         }
-        advice.iter().for_each(tell_advice);
+        advice.iter().for_each(print_advice);
         warnings.iter().for_each(say_warning);
         return Ok(DONE);
     }
@@ -64,14 +64,14 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
     let (steps, time) = (found.steps, duration(found.duration_s));
     match &case.model {
-        // Stability bounds the explicit steps of a film, the less the flatter it is: the first ones tell only the most it can take.
+        // Stability limits the explicit steps of a film, the less the flatter it is: the first steps only give an upper bound of their number.
         Model::ThinFilm(_) if solver.steps_to(case.end).is_none() => {
             say(format_args!(
                 "  run         {} s in steps that grow with time, at most about {time}",
                 readable(case.end)
             ));
         }
-        // When a run is steady is not known before.
+        // When a run becomes steady is not known in advance.
         _ if case.steady.is_some_and(|steady| steady.stop) => {
             say(format_args!("  run         {} s or less, at most about {steps} steps and {time}", readable(case.end)));
         }
@@ -92,7 +92,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
              the slip length of the wall in nanometers; states of rest do not depend on it"
         ));
     }
-    advice.iter().for_each(tell_advice);
+    advice.iter().for_each(print_advice);
     warnings.iter().for_each(say_warning);
     Ok(DONE)
 }
@@ -101,8 +101,8 @@ fn say_warning(warning: &String) {
     say(format_args!("  WARNING     {warning}"));
 }
 
-/// What both models would take, and which can answer.
-fn tell_advice(advice: &Advice) {
+/// Reports the cost of both models, and which of them is applicable.
+fn print_advice(advice: &Advice) {
     let Advice { pores, throats, network_s, .. } = advice;
     say(format_args!("  network     {pores} pores and {throats} throats, found in {}", duration(*network_s)));
     if let Some([narrowest, median]) = advice.widths_over_depth {
@@ -133,21 +133,21 @@ fn tell_advice(advice: &Advice) {
     say(format_args!("  ADVICE      {}", advice.sentence));
 }
 
-/// Tries the first steps; says so before and in between where they take long.
+/// Tries the first steps; shows the progress if they take long.
 fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
-    /// From so many particles or nodes on a step takes a tenth of a second and more.
+    /// From this number of particles or nodes on, a step takes a tenth of a second and more.
     const MANY: usize = 100_000;
     let unknowns = solver.statistics().unknowns;
     if unknowns >= MANY {
         tell(format_args!("the first steps of {unknowns} particles are tried: five, or as many as ten seconds allow"));
     }
     let mut display = ProgressDisplay::new();
-    let found = checked::check(case, solver, &mut |share| display.tried(share));
+    let found = checked::check(case, solver, &mut |fraction| display.tried(fraction));
     display.finish();
     found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
 }
 
-/// Initial distance of particles or nodes in m.
+/// Initial spacing of particles or nodes in m.
 fn spacing(case: &Case) -> f64 {
     match &case.model {
         Model::Sph(sph) => sph.spacing,

@@ -26,18 +26,18 @@ pub(crate) struct CompareArguments {
     /// States of the direct simulation that are compared
     #[arg(long, value_name = "N", default_value = "100")]
     pub(crate) records: std::num::NonZeroUsize,
-    /// Output folder, new or empty; where there is none: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
+    /// Output folder, new or empty; if not given: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on with an interrupted comparison in its folder
+    /// Continue an interrupted comparison in its folder
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Number of threads; all cores where there is none. The results do not depend on it
+    /// Number of threads; all cores if not given. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
 
-/// Runs both cases, writes the page, the numbers and the curves, and tells what came out.
+/// Runs both cases, writes the page, the numbers and the curves, and prints the results.
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
@@ -71,7 +71,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
 }
 
 fn summary(found: &Comparison) {
-    let told = |value: Option<f64>, unit: &str| {
+    let shown = |value: Option<f64>, unit: &str| {
         value.map_or("not measured".to_owned(), |it| format!("{} {unit}", readable(it)))
     };
     let both = |name: &str, [network, direct]: [String; 2]| {
@@ -79,17 +79,17 @@ fn summary(found: &Comparison) {
     };
     let sides = [&found.network, &found.direct];
     if found.is_in_time {
-        both("breakthrough time", sides.map(|side| told(side.breakthrough_time_s, "s")));
+        both("breakthrough time", sides.map(|side| shown(side.breakthrough_time_s, "s")));
     } else {
-        both("breakthrough pressure", sides.map(|side| told(side.breakthrough_pressure_pa, "Pa")));
+        both("breakthrough pressure", sides.map(|side| shown(side.breakthrough_pressure_pa, "Pa")));
     }
-    both("saturation then", sides.map(|side| told(side.saturation_at_breakthrough, "")));
+    both("saturation then", sides.map(|side| shown(side.saturation_at_breakthrough, "")));
     both("wall time", sides.map(|side| duration(side.wall_time_s)));
     let processor = |side: &Side| side.processor_time_s.map_or("not measured".to_owned(), duration);
     both("processor time", sides.map(processor));
-    let rank = told(found.rank_correlation, "");
+    let rank = shown(found.rank_correlation, "");
     say(format_args!("  order of invasion        rank correlation {rank}, {} elements", found.elements_in_both));
-    say(format_args!("  overlap of invaded areas {}, mean over all records", told(found.mean_overlap, "")));
+    say(format_args!("  overlap of invaded areas {}, mean over all records", shown(found.mean_overlap, "")));
     for warning in sides.into_iter().flat_map(|side| &side.warnings) {
         say(format_args!("  WARNING     {warning}"));
     }

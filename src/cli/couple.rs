@@ -1,4 +1,4 @@
-//! `meniscus couple`: a slow displacement whose network hands one avalanche to a direct simulation, and takes up what it leaves.
+//! `meniscus couple`: a slow displacement in a network, one avalanche of which is run by direct simulation, and continued from its final state.
 
 use std::path::{Path, PathBuf};
 
@@ -22,19 +22,19 @@ use crate::run::source::Source;
 pub(crate) struct CoupleArguments {
     /// Case file with [network], an inlet and an outlet, without [network.dynamic]
     pub(crate) network: PathBuf,
-    /// Case file with [sph] and two fluids, of the same geometry, an inlet with a pressure and an outlet, which begins with
-    /// [sph.initial] network = "..."; the state and the pressure are set by this command
+    /// Case file with [sph] and two fluids, of the same geometry, an inlet with a pressure and an outlet, which starts from [sph.initial] network = "..."; the
+    /// state and the pressure are set by this command
     pub(crate) direct: PathBuf,
-    /// The avalanche of the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (the pore of this number in pores.csv is entered)
+    /// Avalanche for the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (pore N of pores.csv is invaded)
     #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
     pub(crate) event: Wanted,
-    /// Pressure beyond that of the event, as a share of it; with a depth, of what the curvature in the plane has in it
-    #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = share)]
+    /// Excess over the pressure of the event, relative to it; with a depth, relative to the part due to the in-plane curvature
+    #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = fraction)]
     pub(crate) excess: f64,
-    /// Output folder, new or empty; where there is none: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
+    /// Output folder, new or empty; if not given: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Number of threads; all cores where there is none. The results do not depend on it
+    /// Number of threads; all cores if not given. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
@@ -50,41 +50,41 @@ fn wanted(text: &str) -> Result<Wanted, String> {
     }
 }
 
-fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse().ok().filter(|share| (0.0..1.0).contains(share) && *share > 0.0);
-    share.ok_or_else(|| "expected a number above 0 and below 1".to_owned())
+fn fraction(text: &str) -> Result<f64, String> {
+    let fraction = text.parse().ok().filter(|fraction| (0.0..1.0).contains(fraction) && *fraction > 0.0);
+    fraction.ok_or_else(|| "expected a number above 0 and below 1".to_owned())
 }
 
-/// What came out, as written to `couple.json`.
+/// Results, as written to `couple.json`.
 #[derive(Debug, Serialize)]
 struct Coupled {
-    /// The avalanche by the network.
+    /// The avalanche in the network.
     avalanche: Avalanche,
     /// Capillary pressure p_n - p_w in Pa that drives the direct simulation.
     driving_pressure_pa: f64,
-    /// Saturation of the wetting phase when the direct simulation ended, by whole elements.
+    /// Wetting saturation at the end of the direct simulation, counted by whole elements.
     saturation_by_direct_simulation: f64,
-    /// Elements that hold the same phase after the avalanche by network and by direct simulation, over all.
+    /// Fraction of the elements with the same phase after the avalanche in network and direct simulation.
     same_elements: Option<f64>,
 }
 
-/// Runs the three parts, writes `couple.json`, and tells what came out.
+/// Runs the three parts, writes `couple.json`, and prints the results.
 pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
     let direction = if avalanche.invading == crate::case::FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.in_plane_pa;
+    let beyond = |fraction: f64| avalanche.pressure_pa + direction * fraction * avalanche.in_plane_pa;
     let driving = beyond(arguments.excess);
     let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");
     // Both cases are checked before anything runs.
-    let rest = source::load_case(Some(&arguments.network), &[stop(avalanche.rest_pressure_pa)])?;
-    let start = state_at_end(&rest.case).map_err(|error| failure(&rest, &error))?;
+    let at_rest = source::load_case(Some(&arguments.network), &[stop(avalanche.rest_pressure_pa)])?;
+    let start = state_at_end(&at_rest.case).map_err(|error| failure(&at_rest, &error))?;
     let direct = source::load_started(&arguments.direct, &[], &start)?;
     if direct.case.depth != network.case.depth {
-        let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
+        let text = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
         let message =
-            format!("the network has {}, and the direct simulation {}", told(&network.case), told(&direct.case));
+            format!("the network has {}, and the direct simulation {}", text(&network.case), text(&direct.case));
         return Err(direct.refused_at("geometry.depth", &message, "give both the same").into());
     }
     let inlet = inlet_pressure(&direct, avalanche.inlet, direction * driving)?;
@@ -110,7 +110,7 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     if let Some(code) = run(&arguments.direct, &overrides, during.clone())? {
         return Ok(code);
     }
-    // What the network does in the same avalanche, to compare with.
+    // The same avalanche by the network, for comparison.
     if let Some(code) = run(&arguments.network, &[stop(driving)], same.clone())? {
         return Ok(code);
     }
@@ -131,7 +131,7 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// `key` set to the state that a run in a folder left at its end.
+/// `key` set to the final state of the run in a folder.
 fn initial(key: &str, folder: &Path) -> Result<String, Failure> {
     let path = std::path::absolute(folder.join("at-end.json")).map_err(|error| Failure::new(USAGE, &error))?;
     Ok(format!("{key}={}", toml::Value::String(path.to_string_lossy().into_owned())))
@@ -180,7 +180,7 @@ fn read(folder: &Path) -> Result<NetworkState, Failure> {
     NetworkState::read(&text).map_err(|error| Failure::new(BUG, &format!("{}: {error}", path.display())))
 }
 
-/// Share of the elements that hold the same phase in both.
+/// Fraction of the elements with the same phase in both.
 fn same_elements(one: &NetworkState, other: &NetworkState) -> Option<f64> {
     let count = one.elements.len();
     let same = one.elements.iter().zip(&other.elements).filter(|(a, b)| a.phase == b.phase).count();

@@ -11,15 +11,18 @@ use super::output::{complain, say};
 use super::threads::pool;
 use super::{check, compare, couple, geometry, list, man, network, new, output, run, source, study, threads};
 
-/// Reads the command line and does what it says.
+/// Reads the command line and executes it.
 pub fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
-        let place = panic.location().map_or(String::new(), |place| format!(" ({}:{})", place.file(), place.line()));
+        let location =
+            panic.location().map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
         let payload = panic.payload();
         let what =
             payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let what = what.unwrap_or("no message");
-        complain(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
+        complain(format_args!(
+            "bug in meniscus: {what}{location}. Please report this line together with the case file."
+        ));
         std::process::exit(i32::from(BUG));
     }));
     let code = match Arguments::try_parse() {
@@ -33,13 +36,13 @@ pub fn main() -> ExitCode {
                 failure.code
             })
         }
-        // Help and version come this way too.
-        Err(told) => {
-            let printed = told.print();
-            if !told.use_stderr() {
+        // Help and version also arrive here.
+        Err(error) => {
+            let printed = error.print();
+            if !error.use_stderr() {
                 output::printed(printed.and_then(|()| std::io::stdout().flush()));
             }
-            if told.use_stderr() { USAGE } else { DONE }
+            if error.use_stderr() { USAGE } else { DONE }
         }
     };
     ExitCode::from(all_printed(code))
@@ -48,7 +51,7 @@ pub fn main() -> ExitCode {
 /// The exit code, unless results that should have been printed are lost.
 fn all_printed(code: u8) -> u8 {
     let Some(error) = output::not_printed() else { return code };
-    let what = format!("cannot print the results: {error}; print them to another place");
+    let what = format!("cannot print the results: {error}; write them somewhere else");
     complain(Failure::new(USAGE, &what).message);
     if code == DONE { USAGE } else { code }
 }

@@ -4,7 +4,7 @@ use miette::Diagnostic;
 
 use super::output::red;
 
-/// All went well.
+/// Success.
 pub(crate) const DONE: u8 = 0;
 /// The program itself is wrong: please report it.
 pub(crate) const BUG: u8 = 1;
@@ -12,14 +12,14 @@ pub(crate) const BUG: u8 = 1;
 pub(crate) const USAGE: u8 = 2;
 /// A case or a shape file is wrong.
 pub(crate) const BAD_INPUT: u8 = 3;
-/// The solver failed; its last good state was saved.
+/// The solver failed; its last valid state was saved.
 pub(crate) const SOLVER_FAILED: u8 = 4;
 /// The run reached its end, but a measure is not what the case expects.
 pub(crate) const EXPECTATION_FAILED: u8 = 5;
-/// Interrupted by Ctrl-C; the run can be resumed. 128 plus the number of the signal, as shells have it.
+/// Interrupted by Ctrl-C; the run can be resumed. 128 plus the number of the signal, as in shells.
 pub(crate) const INTERRUPTED: u8 = 130;
 
-/// Why a command ends early: the exit code and what to tell.
+/// Why a command ends early: the exit code and the message.
 #[derive(Debug)]
 pub(crate) struct Failure {
     /// One of the constants of this module.
@@ -34,7 +34,7 @@ impl Failure {
         Self { code, message: format!("{}: {error}", red("error")) }
     }
 
-    /// A mistake in a case or shape file, with its place in the file.
+    /// A mistake in a case or shape file, with its location.
     pub(crate) fn input(error: impl Diagnostic + Send + Sync + 'static) -> Self {
         Self { code: BAD_INPUT, message: format!("{:?}", miette::Report::new(error)) }
     }

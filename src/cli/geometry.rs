@@ -16,7 +16,7 @@ use crate::snapshot::{Cloud, Field, Snapshot, Values};
 const STAGES: usize = 5;
 const WRITING_STAGES: usize = 1;
 
-/// Measures a shape file and writes what can be seen of it.
+/// Measures a shape file and writes its outline, distance field and picture.
 pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     let formats = formats(&arguments.drawings)?;
     let count = if arguments.out.is_some() { STAGES + WRITING_STAGES } else { STAGES };
@@ -60,7 +60,7 @@ fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
         .map_err(|error| Failure::new(USAGE, &error))
 }
 
-/// The nodes of the grid as points, those in the pore marked as such.
+/// The nodes of the grid as points, with those in the pore marked.
 fn pore(shapes: &Shapes) -> Snapshot<'static> {
     const SOLID: i64 = 2;
     let points = shapes.distance.points();

@@ -1,41 +1,41 @@
-//! The options that tell how a drawing is read, shared by the commands that read one.
+//! Import options of a drawing, shared by the commands that read one.
 
 use clap::Args;
 
 use crate::geometry::import::Options;
 
-/// How a drawing is read: the keys of `[geometry]` beside `file`.
+/// How a drawing is read: the keys of `[geometry]` besides `file`.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "How a drawing is read")]
 pub(crate) struct ImportArguments {
     /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
-    /// Length of the drawing unit in m, in place of --unit
+    /// Length of the drawing unit in m, instead of --unit
     #[arg(long, value_name = "M")]
     pub(crate) scale: Option<f64>,
-    /// Corners of the domain in m: shapes outside of it are left out
+    /// Corners of the domain in m: shapes outside of it are ignored
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = numbers::<f64, 4>, allow_hyphen_values = true)]
     pub(crate) window: Option<[f64; 4]>,
-    /// Layers that are read; all where there is none
+    /// Layers to read; all if not given
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) layers: Option<Vec<String>>,
-    /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing
+    /// Distance below which ends of lines of a DXF drawing are joined, in units of the drawing
     #[arg(long, value_name = "LENGTH")]
     pub(crate) join_within: Option<f64>,
-    /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
+    /// Gray value that separates solid and pore of a mask, from 0 (black) to 1 (white)
     #[arg(long, value_name = "GRAY")]
     pub(crate) threshold: Option<f64>,
     /// Side of a pixel of a mask in m
     #[arg(long, value_name = "M")]
     pub(crate) pixel_size: Option<f64>,
-    /// What is drawn is the pore, and all else is solid
+    /// The shapes are the pore, and all else is solid
     #[arg(long)]
     pub(crate) invert: bool,
     /// Keep polygons whose vertices lie on a circle
     #[arg(long)]
     pub(crate) no_circles: bool,
-    /// Vertices that turn by less than this many degrees become arcs; 20 where there is none, 0: none
+    /// Vertices that turn by less than this many degrees become arcs; 20 if not given, 0 for none
     #[arg(long, value_name = "DEG")]
     pub(crate) smooth_below_deg: Option<f64>,
     /// Columns of x, y and radius in a list of discs, the first one being 0
@@ -44,7 +44,7 @@ pub(crate) struct ImportArguments {
     /// The character between the columns of a list of discs
     #[arg(long, value_name = "CHAR")]
     pub(crate) separator: Option<char>,
-    /// The third column of a list of discs holds diameters
+    /// The third column of a list of discs is the diameter
     #[arg(long)]
     pub(crate) diameters: bool,
 }

@@ -1,5 +1,4 @@
-//! Ctrl-C, and the signals by which systems ask a program to end: the first one asks the run to stop after its step, the second one ends the
-//! program at once.
+//! Ctrl-C and termination signals: the first one requests the run to stop after its step, the second one ends the program at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -7,8 +6,7 @@ use std::sync::{Arc, OnceLock};
 use super::exit::INTERRUPTED;
 use super::output::tell;
 
-/// The flag that these signals set, the same one for all that a process does. Where no handler can be installed, they end the program as they
-/// always do.
+/// The flag that these signals set, one per process. If no handler can be installed, the signals end the program as usual.
 pub(crate) fn flag() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     Arc::clone(FLAG.get_or_init(|| {
@@ -20,7 +18,7 @@ pub(crate) fn flag() -> Arc<AtomicBool> {
     }))
 }
 
-/// A signal came. Only a second one ends the program: the flag may have been set otherwise, by a parent that got the same signal.
+/// A signal arrived. Only a second one ends the program: the flag may already be set for another reason, such as a parent that got the same signal.
 fn asked_to_stop(flag: &AtomicBool, how: &str) {
     static ONE_CAME: AtomicBool = AtomicBool::new(false);
     flag.store(true, Ordering::Relaxed);
@@ -34,7 +32,7 @@ fn asked_to_stop(flag: &AtomicBool, how: &str) {
 fn install(flag: Arc<AtomicBool>) -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let mut signals = vec![SIGINT, SIGTERM];
-    // Who started the program with `nohup` wants it to go on.
+    // A program started with `nohup` is meant to continue.
     if !is_ignored(SIGHUP) {
         signals.push(SIGHUP);
     }
@@ -52,7 +50,7 @@ fn install(flag: Arc<AtomicBool>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether this process was started with a signal ignored, where the system tells.
+/// Whether this process was started with a signal ignored, if the system reports it.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

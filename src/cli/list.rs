@@ -3,7 +3,7 @@
 use super::output::say;
 use crate::wetting::laws;
 
-/// Table of a case file, what it does, where it comes from; before and after the wetting models.
+/// Table of a case file, its model, its reference; before and after the wetting models.
 const MODELS: [[&str; 3]; 7] = [
     ["[sph]", "Direct simulation by incompressible SPH", "Huber et al. 2013"],
     ["[thin-film]", "Droplets on a flat wall", "Pang and O Naraigh 2022"],

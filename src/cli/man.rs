@@ -1,4 +1,4 @@
-//! `meniscus man`: manual pages, made from the same arguments as the help.
+//! `meniscus man`: manual pages, generated from the same arguments as the help.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub(crate) fn man(arguments: &ManArguments) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Writes the pages of a command and of those below it, and counts them.
+/// Writes the pages of a command and its subcommands, and returns their number.
 fn write(folder: &Path, command: &clap::Command) -> Result<usize, Failure> {
     let name = command.get_display_name().unwrap_or_else(|| command.get_name());
     let file = folder.join(format!("{name}.1"));
@@ -32,7 +32,7 @@ fn write(folder: &Path, command: &clap::Command) -> Result<usize, Failure> {
     below.map(|below| write(folder, below)).sum::<Result<usize, _>>().map(|count| count + 1)
 }
 
-/// The page of a command in the language of `man`.
+/// The page of a command in roff.
 fn page(command: &clap::Command) -> Result<String, Failure> {
     let mut text = Vec::new();
     Man::new(command.clone()).render(&mut text).map_err(|error| Failure::new(USAGE, &error))?;

@@ -1,7 +1,6 @@
-//! The command line: the one place that prints. Results go to standard output, progress and errors to standard error.
+//! The command line: only this module prints. Results go to standard output, progress and errors to standard error.
 //!
-//! [`arguments`] says what can be written, [`exit`] what the exit codes mean, `source` where cases and shapes come from;
-//! each command has a file of its own.
+//! [`arguments`] defines the arguments, [`exit`] the exit codes, `source` loads cases and shapes; each command has its own file.
 
 pub(crate) mod arguments;
 mod check;

@@ -11,12 +11,12 @@ use super::verify_arguments::NetworkCommand;
 use crate::case::NetworkOptions;
 use crate::run::execute::Mode;
 
-/// Extracts the network of a shape file, or of the geometry of a case file, and displaces what the options say.
+/// Extracts the network of a shape file, or of the geometry of a case file, and runs the displacement given by the options.
 pub(crate) fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
     if let Some(NetworkCommand::Verify(arguments)) = &arguments.command {
         return verify(arguments);
     }
-    // The command line asks for the file.
+    // The command line requires the file.
     let path = arguments.file.as_deref().unwrap_or(Path::new(""));
     let source = load_network(path, &arguments.import.options(), &options(arguments))?;
     let folder = new_folder(arguments.out.as_deref(), &source.name, Mode::New);

@@ -1,4 +1,4 @@
-//! `meniscus new --pack`: generated grains as a shape file that needs no generator, and what they are like.
+//! `meniscus new --pack`: generated grains as an ordinary shape file, and their properties.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::geometry::spec::{
 };
 use crate::io::atomic;
 
-/// Shares of the pack's size that a micromodel adds, and of a cosine throat's.
+/// Fractions of the pack's size that a micromodel adds, and of a cosine throat's.
 const MANIFOLD: f64 = 0.1;
 const CHANNEL_WIDTH: f64 = 0.2;
 const CHANNEL_LENGTH: f64 = 0.2;
@@ -22,11 +22,11 @@ const WALL: f64 = 0.05;
 const THROAT_WALLS: f64 = 0.8;
 const THROAT_LENGTH: f64 = 0.5;
 
-/// Makes the grains, writes them, and tells porosity, smallest gap and whether fluid can pass.
+/// Generates the grains, writes them, and prints porosity, smallest gap and whether the pore space percolates.
 pub(crate) fn new_pack(kind: PackKind, arguments: &NewArguments, file: &Path) -> Result<u8, Failure> {
     let (depth, arguments) = (arguments.depth, &arguments.pack);
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
-    // The command line asks for two numbers.
+    // The command line requires two numbers.
     let size = [arguments.size.first().copied().unwrap_or(0.0), arguments.size.get(1).copied().unwrap_or(0.0)];
     let region = [[0.0; 2], size];
     let (spec, discs, periodic) = shapes(kind, arguments, region).map_err(|error| bad(&error))?;
@@ -44,7 +44,7 @@ pub(crate) fn new_pack(kind: PackKind, arguments: &NewArguments, file: &Path) ->
     if gap.is_finite() {
         say(format_args!("smallest gap  {} m", readable(gap)));
     }
-    // Generators leave a gap around every disc, so that only grains that touch could close the way.
+    // Generators leave a gap around every disc, so only touching grains could block the flow.
     say(format_args!("percolates    {}", if gap > 0.0 { "yes" } else { "no" }));
     Ok(DONE)
 }

@@ -1,4 +1,4 @@
-//! What all study commands share: a study with its runs, its folder, and what they print of it.
+//! Common to all study commands: a study with its runs and its folder, and printed summaries.
 
 use std::path::{Path, PathBuf};
 
@@ -18,24 +18,24 @@ use crate::study::run::PlannedRun;
 use crate::study::runs::plan;
 use crate::study::verdict::Verdict;
 
-/// Failed runs that are told one by one.
+/// Most failed runs that are listed.
 const MOST_FAILURES: usize = 20;
 
 /// A study with its checked runs and its folder.
 pub(crate) struct Opened {
     /// The study.
     pub(crate) study: Study,
-    /// Its checked runs; none where samples are run within this process.
+    /// Its checked runs; none if samples are run within this process.
     pub(crate) runs: Vec<PlannedRun>,
     /// Samples that are run within this process.
     pub(crate) ensemble: Option<Ensemble>,
-    /// Where the results go.
+    /// Folder of the results.
     pub(crate) folder: StudyFolder,
     /// This program with the study file.
     pub(crate) program: Program,
 }
 
-/// Loads study files and checks the cases of all their runs, so that nothing starts before all are right.
+/// Loads study files and checks the cases of all their runs, so that nothing starts before all are valid.
 pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>, Failure> {
     let mut all: Vec<Opened> = Vec::new();
     for path in paths {
@@ -56,8 +56,7 @@ pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>,
     Ok(all)
 }
 
-/// Does something with one study after the other. One that failed does not keep the next from its turn, an interruption does; the exit code
-/// is the gravest one.
+/// Processes studies one by one. A failure does not prevent the next study, an interruption does; the exit code is that of the most severe one.
 pub(crate) fn each(all: &[Opened], mut one: impl FnMut(&Opened) -> Result<u8, Failure>) -> Result<u8, Failure> {
     let mut gravest = DONE;
     for opened in all {
@@ -76,24 +75,24 @@ fn program(study: &Path) -> Result<Program, Failure> {
     Ok(Program { path, study: study.to_path_buf() })
 }
 
-/// Threads and runs at once, within the cores of this machine.
+/// Threads and concurrent runs, within the cores of this machine.
 pub(crate) fn cores(arguments: &CoresArguments) -> Cores {
     let threads = within_cores("--threads", usize::from(arguments.threads));
     let jobs = arguments.jobs.map(|jobs| within_cores("--jobs", usize::from(jobs)));
     Cores { threads, jobs: jobs.unwrap_or_else(|| (threads::cores() / threads).max(1)) }
 }
 
-/// Writes the report, tells it, and says how the study stands by the exit code.
+/// Writes and prints the report; the exit code is the status of the study.
 pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
     let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
     Ok(told(opened, &written))
 }
 
-/// Tells a report, and how the study stands by the exit code.
+/// Prints a report; the exit code is the status of the study.
 pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
-    tell_judgments(written);
+    print_judgments(written);
     for convergence in &written.convergences {
         let order = convergence.order_text();
         let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
@@ -130,7 +129,7 @@ pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
     }
 }
 
-fn tell_judgments(written: &StudyReport) {
+fn print_judgments(written: &StudyReport) {
     let count = |verdict| written.judgments.iter().filter(|judgment| judgment.verdict == verdict).count();
     if written.judgments.is_empty() {
         return;

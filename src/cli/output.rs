@@ -1,22 +1,22 @@
-//! Printing that never panics. A reader that closed the pipe is no error of ours; a device that takes no more is, and is kept for the end.
+//! Printing that never panics. A pipe closed by its reader is not an error of ours; a failing device is one, and is remembered until the end.
 
 use std::fmt::Display;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Why results could not be printed, the first time.
+/// Why results could not be printed, for the first failure.
 static NOT_PRINTED: OnceLock<io::Error> = OnceLock::new();
 
-/// Whether progress, notes and warnings are left out.
+/// Whether progress, notes and warnings are suppressed.
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From now on only errors go to standard error.
+/// From now on, only errors go to standard error.
 pub(crate) fn be_quiet() {
     IS_QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Whether progress, notes and warnings are left out.
+/// Whether progress, notes and warnings are suppressed.
 pub(crate) fn is_quiet() -> bool {
     IS_QUIET.load(Ordering::Relaxed)
 }
@@ -27,16 +27,16 @@ pub(crate) fn say(line: impl Display) {
     printed(writeln!(out, "{line}").and_then(|()| out.flush()));
 }
 
-/// Notes how a print to standard output went.
+/// Records the outcome of a print to standard output.
 pub(crate) fn printed(result: io::Result<()>) {
     match result {
-        // A closed pipe, as by `| head`, leaves no one to tell.
+        // After a closed pipe, as by `| head`, nobody reads a message.
         Err(error) if error.kind() != ErrorKind::BrokenPipe => drop(NOT_PRINTED.set(error)),
         _ => {}
     }
 }
 
-/// Why some results could not be printed, where that is so.
+/// Why some results could not be printed, if so.
 pub(crate) fn not_printed() -> Option<&'static io::Error> {
     NOT_PRINTED.get()
 }
@@ -53,7 +53,7 @@ pub(crate) fn complain(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// The word in red where standard error is a terminal that shows colors.
+/// The word in red if standard error is a terminal with colors.
 pub(crate) fn red(word: &str) -> String {
     if io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
         format!("\u{1b}[1;31m{word}\u{1b}[0m")
@@ -62,11 +62,11 @@ pub(crate) fn red(word: &str) -> String {
     }
 }
 
-/// A number as people read it: four significant digits, an exponent only where it helps.
+/// A number in readable form: four significant digits, an exponent only where it is shorter.
 pub(crate) fn readable(value: f64) -> String {
     const FIXED: std::ops::Range<i32> = -2..5;
     if value == 0.0 {
-        // Minus zero means nothing to people.
+        // Minus zero is printed as zero.
         return "0".into();
     }
     // The exponent after rounding: 0.99999 has that of 1.
@@ -77,7 +77,7 @@ pub(crate) fn readable(value: f64) -> String {
     }
 }
 
-/// A duration as people read it.
+/// A duration in readable form.
 pub(crate) fn duration(seconds: f64) -> String {
     const MINUTE: f64 = 60.0;
     const HOUR: f64 = 3600.0;

@@ -1,10 +1,10 @@
 //! Whether the processor has the instructions that the program was built with (`.cargo/config.toml`: x86-64-v3).
 
-/// The message where they are missing.
+/// The message if they are missing.
 pub const INSUFFICIENT: &str = "this processor lacks instructions (AVX2) that the program was built with; build it without them: \
                                 RUSTFLAGS='-C target-cpu=x86-64' cargo build --release";
 
-/// Ends the program with a message where the processor lacks them: the first one would end it without a word.
+/// Ends the program with a message if the processor lacks them: the first such instruction would end it without one.
 ///
 /// To be called first. Only functions of the standard library work here, which is built for any processor.
 #[inline(never)]
@@ -13,7 +13,7 @@ pub fn require() {
         use std::io::Write;
 
         let mut err = std::io::stderr();
-        // Nobody is left to tell.
+        // Nobody is left to report an error to.
         let _ = [b"error: ".as_slice(), INSUFFICIENT.as_bytes(), b"\n"]
             .into_iter()
             .try_for_each(|part| err.write_all(part));
@@ -30,7 +30,7 @@ pub fn is_sufficient() -> bool {
     true
 }
 
-/// What the processor itself tells: the standard library's test takes what the program was built with for granted.
+/// As reported by the processor: the test of the standard library presumes the instructions that the program was built with.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
 fn has_v3() -> bool {
     let processor = raw_cpuid::CpuId::new();

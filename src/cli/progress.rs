@@ -8,42 +8,42 @@ use super::output::{duration, is_quiet, readable, tell};
 use crate::run::simulation::{Progress, Watcher};
 use crate::solver::Clock;
 
-/// Length of the bar: tenths of a percent.
+/// Length of the bar: per mille.
 const LENGTH: u64 = 1000;
-/// Time between lines where there is no terminal.
+/// Time between lines without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(15);
 /// Time between updates of the bar's text.
 const BETWEEN_UPDATES: Duration = Duration::from_millis(200);
 
-/// Shows where a run stands, how long it will take and which limit rules its time step.
+/// Shows the progress of a run, the remaining time and the limit that sets its time step.
 pub(crate) struct ProgressDisplay {
     bar: Option<ProgressBar>,
     begun: Instant,
     shown: Instant,
-    /// Time of the first step that was seen, in s: a resumed run does not begin at zero.
+    /// Time of the first observed step in s: a resumed run does not start at zero.
     from: Option<f64>,
 }
 
 impl ProgressDisplay {
-    /// A display that begins now.
+    /// A display that starts now.
     pub(crate) fn new() -> Self {
         let bar = console_bar();
         Self { bar, begun: Instant::now(), shown: Instant::now(), from: None }
     }
 
-    /// Shows which share of the packing of particles before time zero is done.
-    pub(crate) fn packed(&mut self, share: f64) {
+    /// Shows the progress of packing particles before time zero.
+    pub(crate) fn packed(&mut self, fraction: f64) {
         const TEXT: &str = "particles are packed to walls and interfaces";
-        self.show(share, || TEXT.to_owned());
+        self.show(fraction, || TEXT.to_owned());
     }
 
-    /// Shows which share of the steps that are tried is done.
-    pub(crate) fn tried(&mut self, share: f64) {
-        self.show(share, || "first steps are tried".to_owned());
+    /// Shows the progress of the trial steps.
+    pub(crate) fn tried(&mut self, fraction: f64) {
+        self.show(fraction, || "first steps are tried".to_owned());
     }
 
-    /// Shows a share of the work with a text, where enough time has passed since the last one.
-    fn show(&mut self, share: f64, text: impl FnOnce() -> String) {
+    /// Shows a fraction of the work with a text, if enough time has passed since the last update.
+    fn show(&mut self, fraction: f64, text: impl FnOnce() -> String) {
         let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };
         if self.shown.elapsed() < pause {
             return;
@@ -51,10 +51,10 @@ impl ProgressDisplay {
         self.shown = Instant::now();
         match &self.bar {
             Some(bar) => {
-                bar.set_position((LENGTH as f64 * share) as u64);
+                bar.set_position((LENGTH as f64 * fraction) as u64);
                 bar.set_message(text());
             }
-            None => tell(format_args!("{:3.0} %  {}", 100.0 * share, text())),
+            None => tell(format_args!("{:3.0} %  {}", 100.0 * fraction, text())),
         }
     }
 
@@ -65,7 +65,7 @@ impl ProgressDisplay {
         }
     }
 
-    /// Seconds left at the mean speed so far, where there is one.
+    /// Estimated seconds left, at the mean speed so far, if there is one.
     fn left(&self, progress: &Progress) -> Option<f64> {
         let done = progress.time - self.from?;
         (done > 0.0).then(|| self.begun.elapsed().as_secs_f64() * (progress.end - progress.time) / done)
@@ -83,7 +83,7 @@ fn console_bar() -> Option<ProgressBar> {
     Some(bar)
 }
 
-/// One line that says where a run stands.
+/// One line with the progress of a run.
 fn line(progress: &Progress, left: Option<f64>) -> String {
     let Clock { symbol, unit, .. } = progress.clock;
     let left = left.map_or(String::new(), |seconds| format!(", about {} left", duration(seconds)));

@@ -21,24 +21,23 @@ use crate::solver::{Series, Solver};
 /// `run`.
 #[derive(Debug, Default, Args)]
 pub(crate) struct RunArguments {
-    /// Case file; the built-in case where there is none
+    /// Case file; the built-in case if not given
     pub(crate) case: Option<PathBuf>,
-    /// Output folder, new or empty; where there is none: out/NAME, NAME being that of the case file, or where an earlier run
-    /// is in it out/NAME-2, out/NAME-3, ...
+    /// Output folder, new or empty; if not given: out/NAME, NAME being that of the case file, or if an earlier run is in it out/NAME-2, out/NAME-3, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Change a value of the case, as in --set sph.wetting.young.contact-angle-deg=60
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) overrides: Vec<String>,
-    /// Number of threads; all cores where there is none. The results do not depend on it
+    /// Number of threads; all cores if not given. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// Go on with the run in the output folder; without --out in the last one of out/NAME, out/NAME-2, ...
+    /// Continue the run in the output folder; without --out in the last one of out/NAME, out/NAME-2, ...
     #[arg(long)]
     pub(crate) resume: bool,
 }
 
-/// Runs a case; the exit code says how it ended.
+/// Runs a case; returns the exit code.
 pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     let source = source::load_case(arguments.case.as_deref(), &arguments.overrides)?;
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
@@ -46,9 +45,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     finish(&source, folder, mode, arguments.threads)
 }
 
-/// The output folder: the one asked for, or one named for the case.
-pub(super) fn new_folder(asked_for: Option<&Path>, name: &str, mode: Mode) -> PathBuf {
-    asked_for.map_or_else(
+/// The output folder: the given one, or one named after the case.
+pub(super) fn new_folder(given: Option<&Path>, name: &str, mode: Mode) -> PathBuf {
+    given.map_or_else(
         || {
             let base = Path::new("out").join(name);
             if mode == Mode::Resume { folder::last_used(&base) } else { folder::next_free(&base) }
@@ -57,7 +56,7 @@ pub(super) fn new_folder(asked_for: Option<&Path>, name: &str, mode: Mode) -> Pa
     )
 }
 
-/// Runs a loaded case to its end and prints what came out.
+/// Runs a loaded case to its end and prints the results.
 pub(super) fn finish(
     source: &Source,
     folder: PathBuf,
@@ -69,7 +68,7 @@ pub(super) fn finish(
         let mut solver = built(source, mode)?;
         tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
         if mode == Mode::New {
-            tell_warnings(&source.case, solver.as_ref());
+            print_warnings(&source.case, solver.as_ref());
         }
         let flag = interrupt::flag();
         let mut display = ProgressDisplay::new();
@@ -84,19 +83,19 @@ pub(super) fn finish(
     ending(&finished)
 }
 
-/// The solver of a case; a long packing of particles is shown, and one that takes up a saved state is spared it.
+/// The solver of a case; the progress of a long packing of particles is shown, and a resumed run skips the packing.
 pub(super) fn built(source: &Source, mode: Mode) -> Result<Box<dyn Solver>, Failure> {
     let mut display = ProgressDisplay::new();
     let solver = match mode {
-        Mode::New => setup::build_watched(&source.case, &mut |share| display.packed(share)),
+        Mode::New => setup::build_watched(&source.case, &mut |fraction| display.packed(fraction)),
         Mode::Resume => setup::build_to_resume(&source.case),
     };
     display.finish();
     solver.map_err(|error| source.refused(&error).into())
 }
 
-/// Tells what a reader should know before a long run rather than after it.
-fn tell_warnings(case: &Case, solver: &dyn Solver) {
+/// Prints warnings that a reader should have before a long run rather than after it.
+fn print_warnings(case: &Case, solver: &dyn Solver) {
     for warning in setup::warnings(case, solver, &Series::default()) {
         tell(format_args!("  WARNING     {warning}"));
     }

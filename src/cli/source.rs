@@ -1,4 +1,4 @@
-//! Where cases and shapes come from: the command line's only door to the case reader and the geometry.
+//! Loads cases and shapes: the only access of the command line to the case reader and the geometry.
 
 use std::path::Path;
 
@@ -18,13 +18,13 @@ use crate::solver::{Measure, measure};
 /// Nodes of the distance grid along the longer side of a shape file's domain.
 const GRID_NODES: f64 = 400.0;
 
-/// Chords of the drawn outline lie within this share of the domain's longer side of their arcs: a hundredth of a pixel of the picture.
+/// Chordal tolerance of the drawn outline relative to the domain's longer side: a hundredth of a pixel of the picture.
 const OUTLINE_ERROR: f64 = 1e-5;
 
-/// So many of the narrowest throats are told.
+/// Number of the narrowest throats that are printed.
 const THROATS: usize = 10;
 
-/// What can be told and drawn of a shape file.
+/// Printed and drawn properties of a shape file.
 #[derive(Debug)]
 pub(crate) struct Shapes {
     /// Outline of the solids.
@@ -33,11 +33,11 @@ pub(crate) struct Shapes {
     pub(crate) distance: Grid<'static>,
     /// Porosity, specific surface, throats.
     pub(crate) measures: Vec<Measure>,
-    /// What stands at the sides, where the user said it.
+    /// Walls and periodic sides, if given by the user.
     pub(crate) sides: Option<String>,
-    /// The shapes as they were read.
+    /// The shapes as read.
     pub(crate) spec: GeometrySpec,
-    /// Distance of floor and lid in m.
+    /// Depth of the chip (distance between floor and lid) in m.
     pub(crate) depth: Option<f64>,
 }
 
@@ -51,25 +51,25 @@ impl From<Refusal> for Failure {
     }
 }
 
-/// A case with its notes told.
-fn told(source: Source) -> Source {
+/// A case, after printing its notes.
+fn with_notes_printed(source: Source) -> Source {
     source.notes.iter().for_each(tell);
     source
 }
 
-/// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
+/// Loads a case file, or the built-in case if `None`, and checks it against its geometry.
 pub(crate) fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
-    source::load_case(path, overrides).map(told).map_err(Failure::input)
+    source::load_case(path, overrides).map(with_notes_printed).map_err(Failure::input)
 }
 
 /// The network of a drawing or of a case file.
 pub(crate) fn load_network(path: &Path, import: &Options, options: &NetworkOptions) -> Result<Source, Failure> {
-    Ok(told(source::load_network(path, import, options)?))
+    Ok(with_notes_printed(source::load_network(path, import, options)?))
 }
 
-/// Loads a case file as if the file of the state that it begins with held `state`.
+/// Loads a case file as if the file of its initial state contained `state`.
 pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, Failure> {
-    source::load_started(path, overrides, state).map(told).map_err(Failure::input)
+    source::load_started(path, overrides, state).map(with_notes_printed).map_err(Failure::input)
 }
 
 /// Loads a shape file.
@@ -79,7 +79,7 @@ fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Resu
     Ok(read)
 }
 
-/// Problems of keys that options of the command line stand for.
+/// Problems of keys that correspond to command-line options.
 fn of_options(problems: &[Problem]) -> Failure {
     let option =
         |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
@@ -91,12 +91,12 @@ fn of_options(problems: &[Problem]) -> Failure {
     Failure::new(BAD_INPUT, &lines.join("\n"))
 }
 
-/// Refuses a depth in m that is none of these shapes.
+/// Refuses an invalid depth in m for these shapes.
 pub(crate) fn sound_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(), Failure> {
     depth.and_then(|depth| case::none_of(depth, spec)).map_or(Ok(()), |problem| Err(of_options(&[problem])))
 }
 
-/// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m where that is given; `at` receives what is being done.
+/// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m if given; `at` receives the current stage.
 pub(crate) fn load_shapes(
     path: &Path,
     options: &Options,
@@ -106,12 +106,12 @@ pub(crate) fn load_shapes(
     at("reading and checking the shapes");
     let is_case = is_case_file(path);
     if is_case && *options != Options::default() {
-        let message = "a case says itself how its drawing is read: set the keys of its [geometry]";
+        let message = "a case has its own import options: set the keys of its [geometry]";
         return Err(Failure::new(USAGE, &message));
     }
     let (geometry, spec, depth) = match (is_case, periodic) {
         (true, Some(_)) => {
-            let message = "a case says itself which of its sides are periodic: leave out --periodic";
+            let message = "a case has its own periodic sides: leave out --periodic";
             return Err(Failure::new(USAGE, &message));
         }
         (true, None) => {
@@ -139,7 +139,7 @@ pub(crate) fn load_shapes(
             (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec, depth)
         }
     };
-    let sides = (is_case || periodic.is_some()).then(|| told_sides(&geometry));
+    let sides = (is_case || periodic.is_some()).then(|| kinds_of_sides(&geometry));
     at("measuring porosity, walls and throats");
     let measures = measures(&geometry, depth);
     at("drawing the outline");
@@ -150,16 +150,16 @@ pub(crate) fn load_shapes(
     Ok(Shapes { outline, distance, measures, sides, spec, depth })
 }
 
-/// What stands at each side, as far as the geometry sees it.
-fn told_sides(geometry: &Geometry) -> String {
+/// The kind of each side, as far as the geometry has it.
+fn kinds_of_sides(geometry: &Geometry) -> String {
     let [x, y] = geometry.periodic();
     let names = ["left", "right", "bottom", "top"].into_iter().zip([x, x, y, y]).zip(geometry.wall_sides());
-    let told = names.map(|((name, is_periodic), is_wall)| match (is_periodic, is_wall) {
+    let kinds = names.map(|((name, is_periodic), is_wall)| match (is_periodic, is_wall) {
         (true, _) => format!("{name} periodic"),
         (_, true) => format!("{name} wall"),
         _ => format!("{name} open"),
     });
-    told.collect::<Vec<_>>().join(", ")
+    kinds.collect::<Vec<_>>().join(", ")
 }
 
 fn measures(geometry: &Geometry, depth: Option<f64>) -> Vec<Measure> {
@@ -190,7 +190,7 @@ fn measures(geometry: &Geometry, depth: Option<f64>) -> Vec<Measure> {
     found
 }
 
-/// What of a geometry needs its `depth` in m.
+/// Measures of a geometry that require its `depth` in m.
 fn of_chip(geometry: &Geometry, depth: f64) -> [Measure; 4] {
     let (porosity, area) = (geometry.porosity().value, geometry.bounds().area());
     let with_plates = geometry.specific_surface() + 2.0 * porosity / depth;
@@ -204,7 +204,7 @@ fn of_chip(geometry: &Geometry, depth: f64) -> [Measure; 4] {
     ]
 }
 
-/// The commented starter case, of a chip where there is a `depth` in m.
+/// The commented starter case, of a chip if there is a `depth` in m.
 pub(crate) fn starter_case(depth: Option<f64>) -> Result<String, Failure> {
     depth.map_or_else(|| Ok(case::starter_case().to_owned()), case::starter_of_chip).map_err(Failure::input)
 }

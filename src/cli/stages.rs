@@ -1,7 +1,7 @@
-//! What a command that steps nothing is doing: one line on standard error, once it takes long.
+//! Stages of a command without time steps: one line on standard error, if it takes long.
 //!
-//! A thread of its own tells it, so that a stage of many seconds is seen while it lasts. How much of a stage is done is not known, only which
-//! one of how many it is. On a terminal the line is rewritten in place.
+//! Printed by a separate thread, so that a stage of many seconds is shown while it lasts. The progress within a stage is not known, only its number and the
+//! total. On a terminal the line is rewritten in place.
 
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -11,14 +11,14 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::output::{duration, is_quiet, tell};
 
-/// Nothing is told before: most files are measured sooner.
+/// Nothing is printed before: most files are measured sooner.
 const SILENT: Duration = Duration::from_secs(2);
-/// Time between lines of the same stage where there is no terminal.
+/// Time between lines of the same stage without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(15);
-/// Time between looks at the stage.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(200);
+/// Polling interval.
+const POLLING_INTERVAL: Duration = Duration::from_millis(200);
 
-/// What is done now: number of the stage, from 1, its name, and whether the command is done.
+/// The current stage: its number, from 1, its name, and whether the command is done.
 #[derive(Default)]
 struct Now {
     number: usize,
@@ -26,14 +26,14 @@ struct Now {
     is_done: bool,
 }
 
-/// Tells the stages of a command from the second second on, until it is dropped.
+/// Prints the stages of a command from the second second on, until it is dropped.
 pub(super) struct Stages {
     now: Arc<(Mutex<Now>, Condvar)>,
     teller: Option<JoinHandle<()>>,
 }
 
 impl Stages {
-    /// Begins to watch a command of so many stages.
+    /// Starts watching a command of `count` stages.
     pub(crate) fn of(count: usize) -> Self {
         let bar = terminal();
         let show = move |line: &str, is_new: bool| match &bar {
@@ -44,13 +44,13 @@ impl Stages {
         Self::telling(count, SILENT, show)
     }
 
-    /// The same with another silence, and lines given to `show` with whether their stage or their time make them worth a line of their own.
+    /// The same with another initial silence; `show` receives each line and whether a new stage or enough time warrants a separate line.
     fn telling(count: usize, silent: Duration, show: impl Fn(&str, bool) + Send + 'static) -> Self {
         let now = Arc::new((Mutex::new(Now::default()), Condvar::new()));
         let shared = Arc::clone(&now);
         let teller = std::thread::spawn(move || {
             let (begun, mut pause) = (Instant::now(), silent);
-            let (mut told, mut told_at) = (0, begun);
+            let (mut shown, mut shown_at) = (0, begun);
             let mut state = shared.0.lock().unwrap_or_else(PoisonError::into_inner);
             while !state.is_done {
                 let waited = shared.1.wait_timeout_while(state, pause, |now| !now.is_done);
@@ -58,10 +58,10 @@ impl Stages {
                 if state.is_done {
                     break;
                 }
-                pause = BETWEEN_LOOKS;
-                let is_new = state.number != told || told_at.elapsed() >= BETWEEN_LINES;
+                pause = POLLING_INTERVAL;
+                let is_new = state.number != shown || shown_at.elapsed() >= BETWEEN_LINES;
                 if is_new {
-                    (told, told_at) = (state.number, Instant::now());
+                    (shown, shown_at) = (state.number, Instant::now());
                 }
                 let seconds = begun.elapsed().as_secs_f64();
                 show(&format!("{} of {count}: {}, {}", state.number, state.name, duration(seconds)), is_new);
@@ -70,7 +70,7 @@ impl Stages {
         Self { now, teller: Some(teller) }
     }
 
-    /// The next stage begins.
+    /// Starts the next stage.
     pub(crate) fn at(&self, name: &'static str) {
         let mut now = self.now.0.lock().unwrap_or_else(PoisonError::into_inner);
         now.number += 1;
@@ -82,7 +82,7 @@ impl Drop for Stages {
     fn drop(&mut self) {
         self.now.0.lock().unwrap_or_else(PoisonError::into_inner).is_done = true;
         self.now.1.notify_all();
-        // The bar goes with its thread; that one does nothing that can fail.
+        // The bar ends with its thread, which cannot fail.
         let _ = self.teller.take().map(JoinHandle::join);
     }
 }
@@ -101,7 +101,7 @@ fn terminal() -> Option<ProgressBar> {
 mod tests {
     use super::*;
 
-    /// The lines that a command of one stage of 300 ms tells after this silence.
+    /// The lines that a command with one stage of 300 ms prints after this silence.
     fn lines(silent: Duration) -> Vec<String> {
         let lines = Arc::new(Mutex::new(Vec::new()));
         let kept = Arc::clone(&lines);
@@ -123,10 +123,10 @@ mod tests {
 
     #[test]
     fn a_command_that_takes_long_tells_its_stage_once() {
-        let told = lines(Duration::from_millis(1));
-        // The stage may begin after the first look.
-        let last = told.last().unwrap();
-        assert!(last.starts_with("1 of 3: uniting the shapes, 0."), "{told:?}");
-        assert!(told.len() <= 2, "{told:?}");
+        let shown = lines(Duration::from_millis(1));
+        // The stage may start after the first poll.
+        let last = shown.last().unwrap();
+        assert!(last.starts_with("1 of 3: uniting the shapes, 0."), "{shown:?}");
+        assert!(shown.len() <= 2, "{shown:?}");
     }
 }

@@ -18,21 +18,21 @@ use crate::study::values::shown;
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1_048_576.0;
 
-/// Does what the command says.
+/// Executes the command.
 pub(crate) fn study(command: &StudyCommand) -> Result<u8, Failure> {
     match command {
-        StudyCommand::Plan(arguments) => tell_plan(arguments),
+        StudyCommand::Plan(arguments) => print_plans(arguments),
         StudyCommand::Run(arguments) => study_run::run(arguments),
         StudyCommand::Report(arguments) => write_report(arguments),
     }
 }
 
-fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
+fn print_plans(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
     let cores = cores(&arguments.cores);
-    each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| tell_one_plan(opened, cores))
+    each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| print_plan(opened, cores))
 }
 
-fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
+fn print_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
     if let Some(ensemble) = &opened.ensemble {
         return Ok(study_samples::plan(opened, ensemble));
     }
@@ -62,10 +62,10 @@ pub(crate) fn schema() -> String {
     format!("{:#}", crate::study::schema())
 }
 
-/// The runs with what they would take.
+/// The runs with their estimated cost.
 fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> Table {
     let mut heads = vec!["run".to_owned()];
-    // Numbers to compare with change nothing in a run.
+    // Numbers given only for comparison change nothing in a run.
     let changes: Vec<bool> = study.parameters().map(|column| column.target != Target::Nothing).collect();
     heads.extend(study.parameters().zip(&changes).filter(|(_, changes)| **changes).map(|(c, _)| c.name.clone()));
     heads.extend(["unknowns", "steps", "memory", "duration", "state"].map(str::to_owned));
@@ -73,26 +73,26 @@ fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> T
         let mut row = vec![result.run.index.to_string()];
         let parameters = result.run.parameters.iter().zip(&changes).filter(|(_, changes)| **changes);
         row.extend(parameters.map(|(parameter, _)| shown(&parameter.value)));
-        let told = |tell: &dyn Fn(&Trial) -> String| estimate.as_ref().map_or("?".to_owned(), tell);
-        row.push(told(&|trial| trial.unknowns.to_string()));
-        row.push(told(&|trial| readable(trial.steps)));
+        let cell = |tell: &dyn Fn(&Trial) -> String| estimate.as_ref().map_or("?".to_owned(), tell);
+        row.push(cell(&|trial| trial.unknowns.to_string()));
+        row.push(cell(&|trial| readable(trial.steps)));
         let mebibytes = memory_of(Some(estimate)) as f64 / BYTES_PER_MEBIBYTE;
-        row.push(told(&|_| format!("{mebibytes:.0} MiB")));
-        row.push(told(&|trial| duration(trial.duration_s)));
+        row.push(cell(&|_| format!("{mebibytes:.0} MiB")));
+        row.push(cell(&|trial| duration(trial.duration_s)));
         row.push(result.standing.word().to_owned());
         row
     };
     Table { heads, rows: results.iter().zip(estimates).map(row).collect() }
 }
 
-/// What is left to do, with the cores that are given to it.
+/// The remaining work, with the given cores.
 fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String {
     let open = || results.iter().zip(estimates).filter(|(result, _)| result.standing.report().is_none());
     let seconds: Vec<f64> =
         open().filter_map(|(_, estimate)| estimate.as_ref().ok()).map(|trial| trial.duration_s).collect();
-    // The sum of nothing is minus zero.
+    // An empty sum is minus zero.
     let total = seconds.iter().sum::<f64>() + 0.0;
-    // As many runs at once as there are jobs; none is shorter than the longest of them.
+    // Concurrent runs: the number of jobs; the wall time is at least that of the longest run.
     let wall = (total / cores.jobs as f64).max(seconds.iter().copied().fold(0.0, f64::max)) + 0.0;
     let mut memory: Vec<u64> = open().map(|(_, estimate)| memory_of(Some(estimate))).collect();
     memory.sort_unstable_by(|a, b| b.cmp(a));

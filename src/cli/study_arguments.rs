@@ -1,4 +1,4 @@
-//! What can be written behind `study`.
+//! Arguments of `study`.
 
 use std::path::PathBuf;
 
@@ -7,21 +7,21 @@ use clap::{Args, Subcommand, ValueEnum};
 /// `study`.
 #[derive(Debug, Subcommand)]
 pub(crate) enum StudyCommand {
-    /// Tell the runs of a study: what varies, particles, memory, expected duration
+    /// List the runs of a study: what varies, particles, memory, expected duration
     Plan(StudyPlanArguments),
-    /// Do all runs that are not complete, then write the report
+    /// Do all incomplete runs, then write the report
     Run(Box<StudyRunArguments>),
-    /// Write table, curves and page from the runs that are complete
+    /// Write table, curves and page from the completed runs
     Report(StudyFiles),
 }
 
-/// Studies and their folder; what `study report` takes.
+/// Studies and their folder: the arguments of `study report`.
 #[derive(Debug, Args)]
 pub(crate) struct StudyFiles {
     /// Study files, one after the other
     #[arg(required = true, value_name = "STUDY")]
     pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, new or of this study; out/study-NAME where there is none. Of several studies: the folder that holds theirs
+    /// Study folder, new or of this study; out/study-NAME if not given. Of several studies: the folder that contains theirs
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
 }
@@ -35,13 +35,13 @@ pub(crate) struct StudyPlanArguments {
     pub(crate) cores: CoresArguments,
 }
 
-/// Threads and runs at once.
+/// Threads and concurrent runs.
 #[derive(Debug, Args)]
 pub(crate) struct CoresArguments {
     /// Threads of each run
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) threads: std::num::NonZeroUsize,
-    /// Runs at once; as many as the cores allow where there is none
+    /// Concurrent runs; as many as the cores allow if not given
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<std::num::NonZeroUsize>,
 }
@@ -53,7 +53,7 @@ pub(crate) struct StudyRunArguments {
     pub(crate) files: StudyFiles,
     #[command(flatten)]
     pub(crate) cores: CoresArguments,
-    /// Memory for all runs at once in MiB; nine tenths of what is free where there is none
+    /// Memory for all concurrent runs in MiB; nine tenths of the free memory if not given
     #[arg(long, value_name = "MIB")]
     pub(crate) memory: Option<u64>,
     #[command(flatten)]
@@ -64,7 +64,7 @@ pub(crate) struct StudyRunArguments {
     /// Started by another process of the program, which holds the study folder and the standard input
     #[arg(long, hide = true, requires = "index")]
     pub(crate) worker: bool,
-    /// The run must be of this case
+    /// Expected digest of the case of the run
     #[arg(long, hide = true, requires = "index")]
     pub(crate) digest: Option<String>,
 }

@@ -25,7 +25,7 @@ use crate::study::slurm::{Array, submit};
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
 
-/// Does the runs; the exit code says how the studies stand.
+/// Does the runs; the exit code is the status of the studies.
 pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     if let Some(index) = arguments.index {
         let [study] = arguments.files.studies.as_slice() else {
@@ -55,8 +55,8 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let memory = arguments.memory.map(|mebibytes| mebibytes.saturating_mul(BYTES_PER_MEBIBYTE)).or_else(free_memory);
     let Opened { runs, folder, program, .. } = opened;
     let job = Work { runs, estimates: &estimates, folder, program, cores, memory, interrupt: &flag };
-    let mut teller = Teller { count: runs.len(), ended: 0 };
-    let ends = work(&job, &mut |event| teller.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
+    let mut printer = ProgressPrinter { count: runs.len(), ended: 0 };
+    let ends = work(&job, &mut |event| printer.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
     if flag.load(Ordering::Relaxed) {
         tell("interrupted; the same command goes on");
         return Ok(INTERRUPTED);
@@ -71,13 +71,13 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     Ok(if ends.contains(&End::Interrupted) { INTERRUPTED } else { code })
 }
 
-/// Tells how the study goes on.
-struct Teller {
+/// Prints the progress of the study.
+struct ProgressPrinter {
     count: usize,
     ended: usize,
 }
 
-impl Teller {
+impl ProgressPrinter {
     fn tell(&mut self, event: &Event<'_>) {
         match event {
             Event::Started(run) => tell(format_args!("run {} of {}, {}: begun", run.index, self.count, run.name)),
@@ -99,7 +99,7 @@ fn word(end: &End, time: Duration) -> String {
     }
 }
 
-/// The runs that are not complete as a job array.
+/// The incomplete runs as a job array.
 fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let cores = cores(&arguments.cores);
     let kept = opened.folder.estimates();
@@ -173,12 +173,12 @@ fn failure(error: ExecuteError) -> Failure {
     }
 }
 
-/// Sets the flag when the standard input closes: the process that started this one holds its other end.
+/// Sets the flag when the standard input closes: the parent process holds its other end.
 fn stop_with_parent(flag: &Arc<AtomicBool>) {
     let flag = Arc::clone(flag);
     std::thread::spawn(move || {
         let mut rest = Vec::new();
-        // Whatever ends the reading, there is no parent to work for any more.
+        // However the read ends, the parent is gone.
         let _ = std::io::stdin().read_to_end(&mut rest);
         flag.store(true, Ordering::Relaxed);
     });

@@ -1,4 +1,4 @@
-//! `meniscus study` for samples that are run within this process.
+//! `meniscus study` for samples run within this process.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ use crate::study::report::report_of;
 use crate::study::table::Table;
 use crate::study::values::{number_of, shown};
 
-/// Runs the samples that are not done, and writes the report.
+/// Runs the missing samples, and writes the report.
 pub(crate) fn run(arguments: &StudyRunArguments, opened: &Opened, ensemble: &Ensemble) -> Result<u8, Failure> {
     if arguments.place.engine == Place::Slurm {
         let message =
@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &StudyRunArguments, opened: &Opened, ensemble: &Ens
     work(&arguments.cores, opened, ensemble, Some(&flag))
 }
 
-/// Writes the report of the samples that are done.
+/// Writes the report of the finished samples.
 pub(crate) fn report(opened: &Opened, ensemble: &Ensemble) -> Result<u8, Failure> {
     let cores = CoresArguments { threads: NonZeroUsize::MIN, jobs: None };
     work(&cores, opened, ensemble, None)
@@ -68,7 +68,7 @@ fn work(
     })
 }
 
-/// Tells what is sampled and how much of it is done.
+/// Prints what is sampled and how many samples are done.
 pub(crate) fn plan(opened: &Opened, ensemble: &Ensemble) -> u8 {
     let engine = Engine::new(&opened.study, ensemble, &opened.folder);
     say(&opened.study.title);
@@ -81,7 +81,7 @@ pub(crate) fn plan(opened: &Opened, ensemble: &Ensemble) -> u8 {
     DONE
 }
 
-/// The parameters with the least and the largest of their values.
+/// The parameters with their smallest and largest values.
 fn inputs(study: &Study) -> Table {
     let heads = ["parameter", "values", "from", "to"].map(str::to_owned).to_vec();
     let row = |column: &crate::study::definition::Column| {

@@ -1,4 +1,4 @@
-//! What a run prints at its end: the angle asked for beside the angle measured, measures, numbers, files.
+//! The printed summary of a run: prescribed and measured contact angle, measures, numbers, files.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use crate::run::report::{Reading, Report, Status};
 use crate::run::steady::Steadiness;
 use crate::solver::Clock;
 
-/// Name of the measure that stands beside the angle that the case asks for.
+/// Name of the measure that is printed next to the prescribed angle.
 const ANGLE: &str = "contact-angle-deg";
 
 /// The summary of a run as lines of text.
@@ -51,7 +51,7 @@ pub(crate) fn summary(finished: &Finished) -> String {
 fn ending(report: &Report) -> String {
     let Clock { symbol, unit, .. } = report.clock.clock;
     let at = format!("{symbol} = {} {unit}, step {}", readable(report.clock.value), report.steps);
-    // A run that was steady and went on all the same is done at its end.
+    // A run that became steady but continued has reached its end.
     let reached = match &report.steady {
         Some(steady) if steady.at_s == Some(report.clock.value) => format!("steady at {at}"),
         Some(Steadiness { at_s: Some(since), .. }) => format!("done at {at}, steady since {}", readable(*since)),
@@ -67,33 +67,33 @@ fn ending(report: &Report) -> String {
     }
 }
 
-/// The angle that the case asks for, or the two angles between which a line holds, in degrees.
+/// The contact angle that the case prescribes, or the two angles of hysteresis, in degrees.
 fn requested_angle(case: &Case) -> Option<String> {
     let [smallest, largest] = match &case.model {
         Model::Sph(sph) => sph.wetting_model?.hysteresis_range(),
         Model::ThinFilm(film) => [film.contact_angle?; 2],
-        // It holds the angle exactly: there is nothing to measure.
+        // A network has the angle exactly: there is nothing to measure.
         Model::Network(_) => return None,
     }
     .map(f64::to_degrees);
     Some(if smallest == largest { format!("{smallest:.1}") } else { format!("{smallest:.1} to {largest:.1}") })
 }
 
-/// Beginnings of the methods by which angles are measured, and their short names.
+/// First words of the methods of angle measurement, and their short names.
 const METHODS: [(&str, &str); 3] = [
     ("circles fitted", " by circles"),
     ("arcs of Young and Laplace fitted", " by Young-Laplace arcs"),
     ("angle of the tangent", " by the steepest tangent"),
 ];
 
-/// A short name of the method of a contact angle; empty where it has none.
+/// A short name of the method of a contact angle; empty if it has none.
 fn short_method(method: &str) -> &'static str {
     METHODS.iter().find(|(start, _)| method.starts_with(start)).map_or("", |(_, name)| name)
 }
 
 fn with_uncertainty(reading: &Reading) -> String {
     let Some(value) = reading.value else { return format!("not measured ({})", reading.method) };
-    // A count, such as that of blobs.
+    // A count, such as that of ganglia.
     if reading.unit.is_empty() && reading.uncertainty.is_none() && value.fract() == 0.0 {
         return format!("{value:.0}");
     }

@@ -22,7 +22,7 @@ use crate::verify::results::{Row, Status, row};
 use crate::verify::subdomain::Impossible;
 use crate::verify::subject::{Subject, SubjectError};
 
-/// Chooses, writes, runs, and tells.
+/// Selects throats and events, writes the cases, runs them, and prints the results.
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
@@ -43,11 +43,11 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let plan = Plan { throats: &planned, events: &events, fluids: &fluids, spacings: &spacings, network: &name };
     let written = plan::write(&folder, &plan).map_err(|error| usage(&error))?;
-    for (place, why) in written.refused {
-        planned[place].subdomain = Err(Impossible::Case(why));
+    for (index, why) in written.refused {
+        planned[index].subdomain = Err(Impossible::Case(why));
     }
-    for (place, why) in written.refused_events {
-        events[place].subdomain = Err(Impossible::Case(why));
+    for (index, why) in written.refused_events {
+        events[index].subdomain = Err(Impossible::Case(why));
     }
     let throats = planned.iter().map(|one| ("throat", one.chosen.number, one.subdomain.as_ref().err()));
     let all = throats.chain(events.iter().map(|one| ("event", one.number, one.subdomain.as_ref().err())));

@@ -1,4 +1,4 @@
-//! What can be written behind `network verify`.
+//! Arguments of `network verify`.
 
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
@@ -7,10 +7,10 @@ use clap::{Args, Subcommand};
 
 use super::study_arguments::EngineArguments;
 
-/// What is done with a network.
+/// Further commands on a network.
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkCommand {
-    /// Verify chosen throats by direct simulation of cut-outs: entry pressures and conductances beside those of the formulas
+    /// Verify selected throats by direct simulation of subdomains: entry pressures and conductances next to those of the formulas
     Verify(Box<VerifyArguments>),
 }
 
@@ -28,22 +28,22 @@ pub(crate) struct VerifyArguments {
     /// Spacings across each throat, one run for each
     #[arg(long, value_name = "N,N", value_delimiter = ',', num_args = 1, default_values = ["8", "16"])]
     pub(crate) spacings: Vec<NonZeroU32>,
-    /// Chooses the random throats and events
+    /// Seed of the random throats and events
     #[arg(long, default_value = "1")]
     pub(crate) seed: u64,
-    /// Take two fluids alike that come to rest soon in place of those of [network.phases]; no pressure at rest depends on them
+    /// Use two equal fluids that come to rest soon instead of those of [network.phases]; no static pressure depends on them
     #[arg(long)]
     pub(crate) alike: bool,
     /// Change a value of the case
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) overrides: Vec<String>,
-    /// Folder for cases, runs and results; out/NAME-verify where there is none. The same command goes on in it
+    /// Folder for cases, runs and results; out/NAME-verify if not given. The same command continues in it
     #[arg(long, visible_alias = "output", value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Write cases and study file, and run nothing
+    /// Write cases and study file, but run nothing
     #[arg(long)]
     pub(crate) only_write: bool,
-    /// Runs at once, each on one thread; as many as there are cores where there is none
+    /// Concurrent runs, each on one thread; as many as there are cores if not given
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
     #[command(flatten)]

@@ -8,14 +8,14 @@ use crate::geometry::Geometry;
 use crate::geometry::export::{self, Beside, Format};
 use crate::io::{atomic, vtk};
 
-/// The formats of the drawings that were asked for; none for the outline as VTK.
+/// The formats of the requested drawings; `None` for the outline as VTK.
 pub(crate) fn formats(arguments: &WriteArguments) -> Result<Vec<Option<Format>>, Failure> {
     let is_vtk = |path: &std::path::Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtu"));
     let format = |path: &std::path::PathBuf| if is_vtk(path) { Ok(None) } else { Format::of(path).map(Some) };
     arguments.write.iter().map(format).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
 }
 
-/// Writes each drawing that was asked for, in its format.
+/// Writes each requested drawing in its format.
 pub(crate) fn write_shapes(
     arguments: &WriteArguments,
     formats: Vec<Option<Format>>,

@@ -1,7 +1,7 @@
-//! A TOML file as text and tree, with the `--set` values of the command line put in.
+//! A TOML file as text and tree, with the `--set` values of the command line merged in.
 //!
-//! Every node knows its bytes. Those of `--set` values lie behind the end of the file's text, so that one number says
-//! whether a node came from the file or from the command line.
+//! Every node has its byte range. Those of `--set` values lie after the end of the file's text, so that one number tells whether a node came from the file or
+//! from the command line.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{InputError, Mistake};
 use super::overrides::{Override, Overrides};
 
-/// Most mistakes of syntax that are told.
+/// Largest number of syntax errors reported.
 const MOST_MISTAKES: usize = 50;
 
 /// A parsed file.
@@ -24,22 +24,22 @@ pub struct Document {
     renamed: &'static [Renamed],
 }
 
-/// A key of the version before that is still read.
+/// A key of the previous version that is still read.
 #[derive(Debug)]
 pub(crate) struct Renamed {
-    /// The table around it, from the root.
+    /// The table that contains it, from the root.
     pub(crate) table: &'static [&'static str],
-    /// Its name in the version before.
+    /// Its previous name.
     pub(crate) before: &'static str,
     /// Its present name.
     pub(crate) now: &'static str,
 }
 
 impl Document {
-    /// Parses `text`; `name` is how the file is called in messages.
+    /// Parses `text`; `name` is the name of the file in messages.
     ///
     /// # Errors
-    /// All syntax mistakes of the text, and the overrides that cannot be put in.
+    /// All syntax errors of the text, and the overrides that cannot be merged in.
     pub(crate) fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, InputError> {
         let document =
             Self { name: name.to_owned(), text: Arc::from(text), overrides: overrides.clone(), renamed: &[] };
@@ -47,7 +47,7 @@ impl Document {
         if mistakes.is_empty() { Ok(document) } else { Err(InputError { mistakes }) }
     }
 
-    /// The tree, with the overrides put in.
+    /// The tree, with the overrides merged in.
     pub(super) fn tree(&self) -> Spanned<DeTable<'_>> {
         let mut root = self.parse_tree().0;
         self.renamed.iter().for_each(|renamed| {
@@ -56,12 +56,12 @@ impl Document {
         root
     }
 
-    /// The same document with keys of the version before, read under their present names.
+    /// The same document with keys of the previous version, read under their present names.
     pub(crate) fn with_renamed(self, renamed: &'static [Renamed]) -> Self {
         Self { renamed, ..self }
     }
 
-    /// A sentence for each key that has its name of the version before.
+    /// A sentence for each key that has its previous name.
     pub(crate) fn notes_on_renamed(&self) -> Vec<String> {
         let mut root = self.parse_tree().0;
         let is_old = |renamed: &&Renamed| renamed.apply(root.get_mut());
@@ -82,14 +82,14 @@ impl Document {
         (root, mistakes)
     }
 
-    /// The first mistake of each line, up to an open bracket: what follows one is no mistake of its own.
+    /// The first mistake of each line, up to an open bracket: whatever follows one is a consequence of it.
     fn syntax_mistakes(&self, errors: &[toml::de::Error]) -> Vec<Mistake> {
         let mut mistakes: Vec<Mistake> = Vec::new();
         let mut last: Option<usize> = None;
         for error in errors {
             let message = error.message();
             let start = error.span().unwrap_or_default().start;
-            // A line can hold a hundred thousand mistakes: only what lies between it and the one before is looked at.
+            // A line can have a hundred thousand mistakes: only the text between one and the next is inspected.
             let is_same_line = |last: usize| {
                 let between = self.text.as_bytes().get(last.min(start)..last.max(start));
                 between.is_some_and(|between| !between.contains(&b'\n'))
@@ -99,7 +99,7 @@ impl Document {
             let help = match message {
                 _ if in_brackets => "is a bracket left open here or above?",
                 _ if message.contains("must be quoted") => {
-                    "texts stand in quotes; numbers have no unit and a point before decimals"
+                    "texts need quotes; numbers have no unit and a decimal point"
                 }
                 _ => "",
             };
@@ -115,7 +115,7 @@ impl Document {
         mistakes
     }
 
-    /// The overrides, each with its first byte behind the file's text.
+    /// The overrides, each with its first byte after the file's text.
     fn bases(&self) -> impl Iterator<Item = (usize, &Override)> {
         self.overrides.entries().iter().scan(self.text.len() + 1, |next, entry| {
             let base = *next;
@@ -124,12 +124,12 @@ impl Document {
         })
     }
 
-    /// How the file is called in messages.
+    /// The name of the file in messages.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
-    /// A mistake at some bytes of the file or of an override.
+    /// A mistake at a byte range of the file or of an override.
     pub(super) fn mistake(&self, range: Range<usize>, problem: (String, String)) -> Mistake {
         match self.bases().filter(|(base, _)| *base <= range.start).last() {
             Some((base, entry)) => {
@@ -142,17 +142,17 @@ impl Document {
 }
 
 impl Renamed {
-    /// Gives the key its present name, where it has the one before and no other key has the present one.
+    /// Renames the key to its present name, if it has its previous one and no other key has the present one.
     fn apply(&self, root: &mut DeTable) -> bool {
         let mut table = root;
         for key in self.table {
             let Some(DeValue::Table(inner)) = table.get_mut(*key).map(Spanned::get_mut) else { return false };
             table = inner;
         }
-        let place = table.get_key_value(self.before).map(|(key, _)| key.span());
-        let Some(place) = place.filter(|_| !table.contains_key(self.now)) else { return false };
+        let span = table.get_key_value(self.before).map(|(key, _)| key.span());
+        let Some(span) = span.filter(|_| !table.contains_key(self.now)) else { return false };
         let Some(value) = table.remove(self.before) else { return false };
-        table.insert(Spanned::new(place, self.now.into()), value);
+        table.insert(Spanned::new(span, self.now.into()), value);
         true
     }
 
@@ -202,7 +202,7 @@ mod tests {
         assert_eq!(&text[place(document.tree().get_ref(), &path::parse("a.b.new").unwrap())], "1");
         let notes = document.notes_on_renamed();
         assert!(notes.len() == 1 && notes[0].contains("`a.b.old` is now called `a.b.new`"), "{notes:?}");
-        // With both names the old one is a mistake, as any unknown key is.
+        // With both names present, the old one is a mistake, like any unknown key.
         for text in ["[a.b]\nnew = 1\n", "[a.b]\nold = 1\nnew = 2\n", "[a]\nb = 1\n", ""] {
             assert_eq!(parsed(text).notes_on_renamed(), Vec::<String>::new(), "{text}");
         }

@@ -1,4 +1,4 @@
-//! Mistakes with their places, all those of a case at once, as a colored report or as plain text.
+//! Mistakes with their locations, all those of a case at once, as a colored report or as plain text.
 
 use std::sync::Arc;
 
@@ -6,10 +6,10 @@ use miette::{Diagnostic, SourceSpan};
 
 use super::excerpt::{Excerpt, shortened};
 
-/// Letters of a message: what it quotes of a file can be of any length.
+/// Most characters of a message: what it quotes of a file can be of any length.
 const LONGEST: usize = 1000;
 
-/// One mistake at its place.
+/// One mistake and its location.
 #[derive(Debug, Clone, thiserror::Error, Diagnostic)]
 #[error("{message}")]
 pub struct Mistake {
@@ -40,7 +40,7 @@ impl Mistake {
         }
     }
 
-    /// A mistake at the bytes `start..end` of `text`; the ends are moved to the nearest letters.
+    /// A mistake at the bytes `start..end` of `text`; the ends are moved to the nearest character boundaries.
     pub(super) fn in_text(
         name: &str,
         text: &Arc<str>,
@@ -63,16 +63,16 @@ impl Mistake {
         }
     }
 
-    /// The way out, empty where the message says it all.
+    /// The remedy, empty if the message is sufficient.
     pub fn help_text(&self) -> &str {
         self.help.as_deref().unwrap_or_default()
     }
 
     /// `file.toml:12:5: message`, and a second line with the help.
     fn render(&self) -> String {
-        let place = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
+        let location = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
         let help = self.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
-        format!("{}{place}: {}\n{help}", shortened(&self.name, LONGEST), self.message)
+        format!("{}{location}: {}\n{help}", shortened(&self.name, LONGEST), self.message)
     }
 }
 
@@ -80,13 +80,13 @@ impl Mistake {
 #[derive(Debug, Clone, thiserror::Error, Diagnostic)]
 #[error("{}", summary(.mistakes))]
 pub struct InputError {
-    /// The mistakes, by file and place.
+    /// The mistakes, by file and location.
     #[related]
     pub mistakes: Vec<Mistake>,
 }
 
 impl InputError {
-    /// The mistakes as plain text without colors, in the order of their places.
+    /// The mistakes as plain text without colors, sorted by location.
     pub fn render(&self) -> String {
         self.mistakes.iter().map(Mistake::render).collect()
     }
@@ -109,7 +109,7 @@ fn non_empty(text: &str) -> Option<String> {
     (!text.is_empty()).then(|| shortened(text, LONGEST))
 }
 
-/// The last letter boundary at or before `index`.
+/// The last character boundary at or before `index`.
 fn floor_boundary(text: &str, index: usize) -> usize {
     (0..=index.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
 }

@@ -1,17 +1,17 @@
-//! The lines around a mistake, cut so that they fit on a screen: a line of a file can be of any length.
+//! The lines around a mistake, cut to fit on a screen: a line of a file can be of any length.
 
 use std::ops::Range;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-/// Letters of a line that are shown before and after the begin of the mistake.
+/// Characters of a line that are shown before and after the start of the mistake.
 const BEFORE: usize = 60;
 const AFTER: usize = 100;
 
-/// Letters of a word of the file in a message, so that what is said of it is seen.
+/// Most characters quoted of a word of the file, so that the rest of the message stays readable.
 pub(super) const LONGEST_WORD: usize = 200;
 
-/// Stands where something was left out.
+/// Marks an omission.
 const CUT: &str = "...";
 
 /// The line of a mistake with the lines before and after it.
@@ -26,7 +26,7 @@ pub(super) struct Excerpt {
 }
 
 impl Excerpt {
-    /// The lines around the bytes `range` of `text`, which begin and end between letters, and where these bytes are in the excerpt.
+    /// The lines around the bytes `range` of `text`, which begin and end at character boundaries, and the range of these bytes in the excerpt.
     pub(crate) fn new(name: &str, text: &str, range: Range<usize>, place: (usize, usize)) -> (Self, Range<usize>) {
         let begin = text[..range.start].rfind('\n').map_or(0, |end| end + 1);
         let end = text[range.start..].find('\n').map_or(text.len(), |length| range.start + length);
@@ -79,18 +79,18 @@ impl SourceCode for Excerpt {
     }
 }
 
-/// The text, or its first `most` letters where it is longer.
+/// The text, or its first `most` characters if it is longer.
 pub(super) fn shortened(text: &str, most: usize) -> String {
     let end = forward(text, most);
     if end < text.len() { format!("{}{CUT}", &text[..end]) } else { text.to_owned() }
 }
 
-/// Where the first `count` letters of a text end.
+/// Byte index of the end of the first `count` characters of a text.
 fn forward(text: &str, count: usize) -> usize {
     text.char_indices().nth(count).map_or(text.len(), |(index, _)| index)
 }
 
-/// Where the last `count` letters of a text begin.
+/// Byte index of the start of the last `count` characters of a text.
 fn back(text: &str, count: usize) -> usize {
     if count == 0 { text.len() } else { text.char_indices().rev().nth(count - 1).map_or(0, |(index, _)| index) }
 }

@@ -1,22 +1,22 @@
-//! What serde says of a value, in the words of a user's file, with a way out.
+//! Translates serde's error messages into the terms of the user's file, with a remedy.
 
 use super::excerpt::{LONGEST_WORD, shortened};
 use super::suggest::nearest;
 
-/// A serde message put into our words.
+/// A translated serde message.
 #[derive(Debug, Default)]
 pub(super) struct Explained {
     /// What was expected and what was found.
     pub(crate) message: String,
-    /// A way out.
+    /// A remedy.
     pub(crate) help: String,
     /// The known key that was probably meant.
     pub(crate) meant: Option<String>,
-    /// The key that is missing, where the message is about one.
+    /// The missing key, if the message is about one.
     pub(crate) missing: Option<String>,
     /// Whether the message is about a table without its only key.
     pub(crate) empty_choice: bool,
-    /// Whether a name was wanted, alone or as the key of a table.
+    /// Whether a name was expected, alone or as the key of a table.
     pub(crate) wants_name: bool,
 }
 

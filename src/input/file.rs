@@ -1,19 +1,19 @@
-//! Reading files that a user names: regular ones of a bounded size. A device or a pipe may never end.
+//! Reading files named by the user: regular files of bounded size. A device or a pipe may never end.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest file in bytes: a drawing or a mask of this size would unfold into more than a machine can hold.
+/// Largest file in bytes: a larger drawing or mask would expand to more than the memory of a machine.
 pub(crate) const LARGEST: u64 = 1 << 28;
 
-/// Largest text in bytes: a list of a million shapes has as much.
+/// Largest text in bytes: about that of a list of a million shapes.
 pub(crate) const LARGEST_TEXT: u64 = 1 << 26;
 
 /// The bytes of a file.
 ///
 /// # Errors
-/// The file is none, is larger than `largest` bytes, or cannot be read.
+/// It is not a regular file, is larger than `largest` bytes, or cannot be read.
 pub(crate) fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     // Opening a pipe would wait for its other end.
     let metadata = std::fs::metadata(path)?;
@@ -32,16 +32,16 @@ pub(crate) fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
 /// The text of a file of at most [`LARGEST_TEXT`] bytes, without byte order mark.
 ///
 /// # Errors
-/// See [`read`]; and [`io::ErrorKind::InvalidData`] with the line of the first byte that is no text in UTF-8.
+/// See [`read`]; and [`io::ErrorKind::InvalidData`] with the line of the first byte that is not valid UTF-8.
 pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     let text = String::from_utf8(read(path, LARGEST_TEXT)?).map_err(|error| {
-        let place = not_text(error.as_bytes()).unwrap_or_default();
-        io::Error::new(io::ErrorKind::InvalidData, place)
+        let position = not_text(error.as_bytes()).unwrap_or_default();
+        io::Error::new(io::ErrorKind::InvalidData, position)
     })?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
-/// Where bytes are no text in UTF-8, as `line 3, byte 17`.
+/// Position of the first byte that is not valid UTF-8, as `line 3, byte 17`.
 pub(crate) fn not_text(bytes: &[u8]) -> Option<String> {
     let valid = std::str::from_utf8(bytes).err()?.valid_up_to();
     let line = bytes[..valid].iter().filter(|byte| **byte == b'\n').count() + 1;

@@ -1,8 +1,7 @@
-//! TOML with places: every mistake of a file at once, each with its line.
+//! TOML with source locations: every mistake of a file at once, each with its line.
 //!
-//! A [`Document`] is a file's text and tree. [`Document::read`] turns it into a type by serde and goes on after a mistake;
-//! the checkers of a type name [`Problem`]s by key path, and [`Reading::refuse`](read::Reading::refuse) finds their places. [`Overrides`] are
-//! the `--set KEY=VALUE` of the command line.
+//! A [`Document`] is a file's text and tree. [`Document::read`] deserializes it by serde and continues after a mistake; the checkers of a type name
+//! [`Problem`]s by key path, and [`Reading::refuse`](read::Reading::refuse) locates them. [`Overrides`] are the `--set KEY=VALUE` of the command line.
 
 mod checker;
 mod document;

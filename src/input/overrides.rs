@@ -1,4 +1,4 @@
-//! `--set KEY=VALUE`: values put into a file's tree before it is read.
+//! `--set KEY=VALUE`: values merged into a file's tree before it is read.
 
 use std::ops::Range;
 
@@ -18,21 +18,19 @@ pub struct Overrides {
 /// One `KEY=VALUE`.
 #[derive(Debug, Clone)]
 pub(super) struct Override {
-    /// As it was given.
+    /// As given.
     pub(crate) text: String,
     steps: Vec<Step>,
     key_length: usize,
-    /// The value as a line of TOML, where it is TOML.
+    /// The value as a line of TOML, if it is TOML.
     line: Option<String>,
 }
 
 impl Overrides {
-    /// Reads `KEY=VALUE` texts. A value that is no TOML is taken as text, so that `sph.sides.left=periodic` needs no
-    /// quotes.
+    /// Reads `KEY=VALUE` texts. A value that is not TOML is taken as text, so that `sph.sides.left=periodic` needs no quotes.
     ///
     /// # Errors
-    /// All texts that have no key, a malformed key, or a value that begins like a table, array or quoted text and is
-    /// none.
+    /// All texts without a key, with a malformed key, or with a value that begins like a table, array or quoted text but is not a valid one.
     pub fn parse<S: AsRef<str>>(texts: &[S]) -> Result<Self, InputError> {
         let (mut entries, mut mistakes) = (Vec::new(), Vec::new());
         for text in texts {
@@ -58,13 +56,13 @@ impl Override {
         };
         let steps = path::parse(key.trim()).filter(|steps| !steps.is_empty()).ok_or((
             format!("`{}` is not a key path", shortened(key, LONGEST_WORD)),
-            "names with points between them and places in arrays in brackets, as in geometry.shapes[0].disc.radius",
+            "names separated by dots, with array indices in brackets, as in geometry.shapes[0].disc.radius",
         ))?;
         let line = toml_line(value).map_err(|message| (message, "write the value as in the file, in TOML"))?;
         Ok(Self { text: text.to_owned(), steps, key_length: key.len(), line })
     }
 
-    /// Puts the value into the tree; `base` is the first byte of this override's text.
+    /// Merges the value into the tree; `base` is the first byte of this override's text.
     pub(super) fn put_into<'t>(&'t self, root: &mut Spanned<DeTable<'t>>, base: usize) -> Result<(), (String, String)> {
         let key_span = base..base + self.key_length;
         let value = self.value(base + self.key_length + 1);
@@ -113,7 +111,7 @@ impl Override {
     }
 }
 
-/// The value of a key, made a table where it is absent.
+/// The value of a key, created as a table if absent.
 fn enter_key<'a, 't>(
     table: &'a mut DeTable<'t>,
     key: &str,
@@ -126,7 +124,7 @@ fn enter_key<'a, 't>(
 }
 
 fn set_key<'t>(table: &mut DeTable<'t>, key: &str, span: Range<usize>, value: Spanned<DeValue<'t>>) {
-    // The map would keep the old key and with it the old place.
+    // The map would keep the old key and with it the old location.
     table.remove(key);
     table.insert(Spanned::new(span, key.to_owned().into()), value);
 }
@@ -148,10 +146,10 @@ fn no_element(steps: &[Step], index: usize, count: usize) -> (String, String) {
     (format!("`{path}` has {count} elements, there is no [{index}]"), "the first element is [0]".to_owned())
 }
 
-/// What stands before the value in the line that is parsed.
+/// Prefix of the value in the line that is parsed.
 const BEFORE: &str = "v=";
 
-/// The value as a line of TOML; `None` where it is text without quotes.
+/// The value as a line of TOML; `None` if it is text without quotes.
 fn toml_line(text: &str) -> Result<Option<String>, String> {
     let line = format!("{BEFORE}{text}");
     match DeTable::parse(&line) {

@@ -1,4 +1,4 @@
-//! Key paths such as `shapes[2].disc.radius`: their steps and how they are written.
+//! Key paths such as `shapes[2].disc.radius`: parsing and formatting.
 
 use std::fmt::Write;
 
@@ -11,10 +11,10 @@ pub(super) enum Step {
     Index(usize),
 }
 
-/// Most steps of a path; no file of ours is a quarter as deep.
+/// Most steps of a path; no file format of ours is a quarter as deep.
 const MOST_STEPS: usize = 64;
 
-/// The steps of a path; `None` where it is not one.
+/// The steps of a path; `None` if malformed.
 pub(super) fn parse(path: &str) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
     if path.is_empty() {
@@ -31,7 +31,7 @@ pub(super) fn parse(path: &str) -> Option<Vec<Step>> {
     (steps.len() <= MOST_STEPS).then_some(steps)
 }
 
-/// The path as it is written.
+/// The path as text.
 pub(super) fn write(steps: &[Step]) -> String {
     let mut path = String::new();
     for step in steps {

@@ -1,4 +1,4 @@
-//! A mistake in an input file: where it is, what is wrong, and a way out. Plain data, no source text.
+//! A mistake in an input file: its key path, what is wrong, and a remedy. Plain data, no source text.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ pub struct Problem {
     pub path: String,
     /// What is wrong, with what was found and what was expected.
     pub message: String,
-    /// A way out.
+    /// A remedy.
     pub help: String,
 }
 
@@ -19,7 +19,7 @@ impl Problem {
         Self { path: path.into(), message: message.into(), help: help.into() }
     }
 
-    /// A problem at `path` from the text of an error: its way out stands behind the first semicolon.
+    /// A problem at `path` from the text of an error: its remedy follows the first semicolon.
     pub(crate) fn of_text(path: impl Into<String>, text: &str) -> Self {
         let (message, help) = text.split_once("; ").unwrap_or((text, ""));
         Self::new(path, message, help)

@@ -1,4 +1,4 @@
-//! Ranges of numbers in an input file: a check refuses what lies outside of them, a schema tells them to editors.
+//! Ranges of numbers in an input file: a check refuses values outside of them, a schema states them to editors.
 
 use std::fmt;
 
@@ -11,9 +11,9 @@ pub enum Range {
     Above(f64),
     /// At or above a limit.
     AtLeast(f64),
-    /// From one limit to the other, both among them.
+    /// Closed interval.
     Within(f64, f64),
-    /// Between two limits, neither among them.
+    /// Open interval.
     Between(f64, f64),
 }
 
@@ -28,7 +28,7 @@ impl Range {
         }
     }
 
-    /// The keywords of JSON Schema that say it.
+    /// The keywords of JSON Schema for it.
     pub(crate) fn keywords(&self) -> Vec<(&'static str, Value)> {
         match *self {
             Self::Above(limit) => vec![("exclusiveMinimum", number(limit))],
@@ -39,7 +39,7 @@ impl Range {
     }
 }
 
-/// As it follows what a number is: `above 0`, `from 0.0 to 180.0`.
+/// To follow a noun: `above 0`, `from 0.0 to 180.0`.
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -51,7 +51,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// A whole number without a decimal point, as people write it.
+/// An integer without a decimal point.
 fn number(value: f64) -> Value {
     if value.fract() == 0.0 && value.abs() < 1.0e6 { json!(value as i64) } else { json!(value) }
 }

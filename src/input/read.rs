@@ -1,8 +1,7 @@
-//! Reading a document into a type by serde, going on after each mistake.
+//! Deserializing a document by serde, continuing after each mistake.
 //!
-//! Serde stops at the first mistake. So the node it names is taken out of the tree and the rest is read again; types
-//! have optional fields, and what is missing is judged by their checkers. What a removal makes others say (a table that
-//! now lacks a key) is not reported.
+//! Serde stops at the first mistake. So the node at fault is removed from the tree and the rest is read again; types have optional fields, and their checkers
+//! report what is missing. Consequences of a removal (a table that now lacks a key) are not reported.
 
 use std::ops::Range;
 
@@ -18,19 +17,19 @@ use super::path::{self, Step};
 use super::problem::Problem;
 use super::tree::{Container, container, find, node, node_span, place, value_at, visit};
 
-/// Mistakes after which a file is not read further; a file with more of them is no case file.
+/// Number of mistakes after which reading stops; a file with more of them is not a case file.
 const MOST_MISTAKES: usize = 50;
 
-/// The place of what stands in for a missing value; no text is as long.
+/// The byte range of a placeholder for a missing value; no text is as long.
 const NOWHERE: Range<usize> = usize::MAX - 1..usize::MAX;
 
-/// Deepest array of numbers that a key may hold: a polygon's holes.
+/// Deepest nesting of number arrays that a key may have: a polygon's holes.
 const DEEPEST_ARRAY: usize = 3;
 
-/// A document read into a type, with the mistakes so far.
+/// A deserialized document, with the mistakes so far.
 #[derive(Debug)]
 pub(crate) struct Reading<'d, T> {
-    /// The value; what was wrong is absent from it.
+    /// The value; whatever was wrong is absent from it.
     pub value: T,
     document: &'d Document,
     mistakes: Vec<(Range<usize>, Mistake)>,
@@ -39,12 +38,12 @@ pub(crate) struct Reading<'d, T> {
     complete: bool,
 }
 
-/// What has been taken out of the tree.
+/// What has been removed from the tree.
 #[derive(Debug, Default)]
 struct Removed {
     /// Key paths in the file, and the keys that were probably meant by them.
     paths: Vec<String>,
-    /// Array and index in the file of each array element taken out.
+    /// Array and index in the file of each removed array element.
     elements: Vec<(Vec<Step>, usize)>,
 }
 
@@ -67,12 +66,12 @@ impl Document {
 }
 
 impl<T> Reading<'_, T> {
-    /// All mistakes by place: those of reading, and `problems` where they do not follow from those.
+    /// All mistakes by location: those of reading, and `problems` unless they follow from those.
     pub(crate) fn refuse(self, problems: Vec<Problem>) -> Vec<Mistake> {
         let mut mistakes = self.mistakes;
         let tree = self.document.tree();
         let mut more = 0;
-        // What was not read is not missing.
+        // Whatever was not read is not missing.
         for problem in problems.into_iter().filter(|_| self.complete) {
             let steps = path::parse(&problem.path).unwrap_or_default();
             let steps = self.removed.in_file(&steps);
@@ -104,7 +103,7 @@ impl<T> Reading<'_, T> {
 }
 
 impl Document {
-    /// The error that names `problems` at their places, where there are any.
+    /// The error that reports `problems` at their locations, if there are any.
     ///
     /// # Errors
     /// [`InputError`] with all problems.
@@ -117,7 +116,7 @@ impl Document {
 }
 
 impl Removed {
-    /// A path of the tree as it is now, as a path of the file.
+    /// A path of the current tree as a path of the file.
     fn in_file(&self, steps: &[Step]) -> Vec<Step> {
         let mut path: Vec<Step> = Vec::with_capacity(steps.len());
         for step in steps {
@@ -135,7 +134,7 @@ impl Removed {
         path
     }
 
-    /// Whether a problem at `path` may come from what was taken out: it, something around it or a part of it.
+    /// Whether a problem at `path` may be a consequence of a removal: of it, of something around it or of a part of it.
     fn explains(&self, path: &str) -> bool {
         self.paths.iter().any(|removed| {
             let parent = removed.rfind(['.', '[']).map(|end| &removed[..end]);
@@ -160,7 +159,7 @@ struct Reader<'d> {
     root: Spanned<DeTable<'d>>,
     mistakes: Vec<(Range<usize>, Mistake)>,
     removed: Removed,
-    /// The places of tables that lack keys and hold fillings for them.
+    /// The byte ranges of tables that lack keys and have placeholders for them.
     filled: Vec<Range<usize>>,
     complete: bool,
 }
@@ -209,7 +208,7 @@ impl<'d> Reader<'d> {
         explained
     }
 
-    /// Notes a serde error, unless it follows from something taken out before; says whether it did.
+    /// Records a serde error, unless it follows from an earlier removal; returns whether it did.
     fn record(&mut self, explained: Explained, span: Range<usize>, steps: &[Step]) -> bool {
         let here = self.removed.in_file(steps);
         let follows = explained.missing.as_ref().is_some_and(|key| self.removed.has(&here, key))
@@ -226,15 +225,15 @@ impl<'d> Reader<'d> {
         !follows
     }
 
-    /// Puts something into a table for a key that it lacks, so that the next key that it lacks is named too.
+    /// Puts a placeholder into a table for a missing key, so that the next missing key is reported, too.
     fn fill<T: DeserializeOwned>(&mut self, steps: &[Step], key: &str) -> bool {
-        let place = node_span(self.root.get_ref(), steps);
+        let span = node_span(self.root.get_ref(), steps);
         for depth in 0..=DEEPEST_ARRAY {
             let Container::Table(table) = container(self.root.get_mut(), steps) else { return false };
             table.remove(key);
             table.insert(Spanned::new(NOWHERE, key.to_owned().into()), filling(depth));
             if self.try_read::<T>().err().and_then(|error| error.span()) != Some(NOWHERE) {
-                self.filled.extend(place);
+                self.filled.extend(span);
                 return true;
             }
         }
@@ -244,10 +243,10 @@ impl<'d> Reader<'d> {
         false
     }
 
-    /// Takes out the tables that lacked keys.
+    /// Removes the tables that lacked keys.
     fn remove_filled(&mut self) {
-        for place in std::mem::take(&mut self.filled) {
-            let steps = find(self.root.get_ref(), &place);
+        for span in std::mem::take(&mut self.filled) {
+            let steps = find(self.root.get_ref(), &span);
             if !steps.is_empty() {
                 self.remove(steps);
             }
@@ -259,7 +258,7 @@ impl<'d> Reader<'d> {
         self.mistakes.push((span, mistake));
     }
 
-    /// Takes out the node at `steps`, with the array of plain values around it; false where nothing is left to take.
+    /// Removes the node at `steps`, with the array of plain values around it; false if nothing is left to remove.
     fn remove(&mut self, mut steps: Vec<Step>) -> bool {
         while let Some(Step::Index(_)) = steps.last() {
             let parent = &steps[..steps.len() - 1];
@@ -325,7 +324,7 @@ impl<'d> Reader<'d> {
     }
 }
 
-/// A number, or points of it: `depth` arrays around it.
+/// A placeholder: a number, or points nested in `depth` arrays.
 fn filling(depth: usize) -> Spanned<DeValue<'static>> {
     /// A polygon takes three points, and a pair drops the third.
     const LENGTH: usize = 3;

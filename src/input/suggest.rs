@@ -1,7 +1,6 @@
 //! The known word nearest to a misspelled one, by edit distance.
 
-/// The candidate nearest to `word`, where one is near enough to be meant: at most a third of its letters differ, or it
-/// is the end of the word.
+/// The candidate nearest to `word`, if near enough: at most a third of its letters differ, or it is the end of the word.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()

@@ -1,8 +1,8 @@
-//! Tables of an input file, each key of them in one place: name, type, what it may hold, and what it is.
+//! Tables of an input file, each key declared once: name, type, allowed values, and description.
 //!
-//! From a table in [`tables!`] follow the type that is read, in which every key is optional, so that one mistake does not hide another; the check
-//! of each key alone; and ranges and required keys of the schema. [`checked_tables!`] makes a second type of it, in which every key
-//! is there, and the ways from one to the other. Rules between keys are functions beside the tables.
+//! A table in [`tables!`] generates the type that is read, in which every key is optional, so that one mistake does not hide another; the check of each key
+//! alone; and ranges and required keys of the schema. [`checked_tables!`] generates a second type, in which every key is present, and the conversions between
+//! them. Rules between keys are functions next to the tables.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -13,26 +13,26 @@ use serde_json::{Map, Value as Json, json};
 use super::checker::Checker;
 use super::range::Range;
 
-/// What a key may hold beyond what its type says.
+/// The allowed values of a key beyond its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Key {
-    /// What it is, with its article and its unit: `a slip length in m`.
+    /// A noun phrase with article and unit: `a slip length in m`.
     pub what: &'static str,
-    /// Where a number must lie.
+    /// Allowed range of a number.
     pub range: Option<Range>,
-    /// Its line in a file. A key with one and no default is required.
+    /// An example line for a file. A key with one and no default is required.
     pub example: Option<&'static str>,
-    /// Its value where the file says nothing.
+    /// Its value if the file does not give it.
     pub default: Option<f64>,
-    /// A way out where it is wrong.
+    /// A remedy if it is wrong.
     pub help: &'static str,
 }
 
 impl Key {
-    /// Anything of its type, or nothing.
+    /// Any value of its type, or none.
     pub(crate) const ANY: Self = Self { what: "", range: None, example: None, default: None, help: "" };
 
-    /// Anything of its type, as in `example`.
+    /// Any value of its type, as in `example`.
     pub(crate) const fn required(example: &'static str) -> Self {
         Self { example: Some(example), ..Self::ANY }
     }
@@ -57,17 +57,17 @@ impl Key {
         Self::number(what, Range::Within(low, high))
     }
 
-    /// The same key with its line in a file, so that it is required unless it has a default.
+    /// The same key with an example line, so that it is required unless it has a default.
     pub(crate) const fn example(self, example: &'static str) -> Self {
         Self { example: Some(example), ..self }
     }
 
-    /// The same key with a value where the file says nothing.
+    /// The same key with a default.
     pub(crate) const fn default(self, default: f64) -> Self {
         Self { default: Some(default), ..self }
     }
 
-    /// The same key with a way out where it is wrong.
+    /// The same key with a remedy.
     pub(crate) const fn help(self, help: &'static str) -> Self {
         Self { help, ..self }
     }
@@ -78,12 +78,12 @@ impl Key {
         Some(format!("expected {} {range}, found {value:?}", self.what))
     }
 
-    /// Whether it must be there.
+    /// Whether it is required.
     pub(crate) fn is_required(&self) -> bool {
         self.example.is_some() && self.default.is_none()
     }
 
-    /// The value of a field in the table at the key path `at`, where it is there and what it may be.
+    /// The value of a field in the table at the key path `at`, if it is present and allowed.
     pub(crate) fn checked<V: Value>(
         &self,
         checker: &mut Checker,
@@ -112,7 +112,7 @@ pub(crate) fn join(at: &str, key: &str) -> String {
 
 /// A type that a key can have.
 pub(crate) trait Value: Sized {
-    /// The value where it is what `key` may hold; else a problem at `path`. A table keeps the keys that are right.
+    /// The value if `key` allows it; else a problem at `path`. A table keeps its valid keys.
     fn checked(self, _key: &Key, _checker: &mut Checker, _path: &str) -> Option<Self> {
         Some(self)
     }
@@ -150,14 +150,14 @@ impl Value for toml::Value {}
 impl<T> Value for BTreeMap<String, T> {}
 impl<T, const N: usize> Value for [T; N] {}
 
-/// A table without keys: its name says all.
+/// A table without keys: its name is sufficient.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Empty {}
 
 impl Value for Empty {}
 
-/// Adds to the schema of a table what its keys may hold and which are required.
+/// Adds the allowed values and the required keys to the schema of a table.
 pub(crate) fn describe(schema: &mut Schema, keys: &[(&str, Key)]) {
     if let Some(properties) = schema.get_mut("properties").and_then(Json::as_object_mut) {
         for (field, key) in keys {
@@ -173,12 +173,12 @@ pub(crate) fn describe(schema: &mut Schema, keys: &[(&str, Key)]) {
 
 fn describe_number(properties: &mut Map<String, Json>, name: &str, key: &Key) {
     let (Some(property), Some(range)) = (properties.get_mut(name), key.range) else { return };
-    // Of several numbers each has the range.
+    // For several numbers, the range applies to each.
     let number = if property["items"].is_object() { &mut property["items"] } else { property };
     range.keywords().into_iter().for_each(|(keyword, limit)| number[keyword] = limit);
 }
 
-/// Declares tables: `pub field: type`, which is followed by `=> key` where it may not hold everything of its type or is required.
+/// Declares tables: `pub field: type`, followed by `=> key` if not every value of its type is allowed or if it is required.
 macro_rules! tables {
     (@key) => { $crate::input::tables::Key::ANY };
     (@key $key:expr) => { $key };
@@ -197,11 +197,11 @@ macro_rules! tables {
         }
 
         impl $name {
-            /// Its fields and what they may hold.
+            /// Its fields and their allowed values.
             pub(crate) const KEYS: &'static [(&'static str, $crate::input::tables::Key)] =
                 &[$((stringify!($field), $crate::input::tables::tables!(@key $($key)?)),)*];
 
-            /// The table at the key path `at` with those of its keys that hold what they may.
+            /// The table at the key path `at` with those of its keys that have allowed values.
             pub(crate) fn in_range(self, checker: &mut $crate::input::Checker, at: &str) -> Self {
                 Self {
                     $($field: $crate::input::tables::tables!(@key $($key)?)
@@ -224,7 +224,7 @@ macro_rules! tables {
 }
 pub(crate) use tables;
 
-/// Declares tables of numbers and words like [`tables!`], each with the type in which every key is there, behind `for`.
+/// Declares tables of numbers and words like [`tables!`], each with the type in which every key is present, after `for`.
 macro_rules! checked_tables {
     ($(
         $(#[$outer:meta])*
@@ -244,13 +244,13 @@ macro_rules! checked_tables {
         }
 
         impl $name {
-            /// The table with what `default` says in place of what is missing.
+            /// The table with missing keys taken from `default`.
             #[allow(dead_code, reason = "a table needs this or `complete`")]
             pub(crate) fn or(self, default: $checked) -> $checked {
                 $checked { $($field: self.$field.unwrap_or(default.$field),)* }
             }
 
-            /// The table where nothing is missing.
+            /// The table, if nothing is missing.
             #[allow(dead_code, reason = "a table needs this or `or`")]
             pub(crate) fn complete(self) -> Option<$checked> {
                 Some($checked { $($field: self.$field?,)* })
@@ -266,18 +266,18 @@ macro_rules! checked_tables {
 }
 pub(crate) use checked_tables;
 
-/// The words that a key can hold.
+/// The words that a key allows.
 pub(crate) trait Words: Copy + serde::Serialize + 'static {
-    /// All of them with what they mean.
+    /// All of them with their meaning.
     const ALL: &'static [(Self, &'static str)];
 
-    /// The word as it is written.
+    /// The word as written.
     fn word(self) -> String {
         serde_json::to_value(self).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default()
     }
 }
 
-/// Declares enums whose variants are the words that a key can hold, in kebab case.
+/// Declares enums whose variants are the words that a key allows, in kebab case.
 macro_rules! words {
     ($($(#[$outer:meta])* $vis:vis enum $name:ident { $($(#[doc = $doc:literal])+ $word:ident,)* })*) => {$(
         $(#[$outer])*

@@ -1,4 +1,4 @@
-//! Ways through a TOML tree: by path, by bytes, and through all of it.
+//! Traversal of a TOML tree: by path, by byte range, and in full.
 
 use std::ops::Range;
 
@@ -7,10 +7,10 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use super::path::Step;
 
-/// Sees a path, the bytes of its key where it ends in one, and its value.
+/// Visitor of a path, the byte range of its key if it ends in one, and its value.
 type See<'s> = dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>) + 's;
 
-/// The bytes of the value at a key path or, where it is absent, those of the nearest table around it.
+/// The byte range of the value at a key path or, if absent, that of the nearest table around it.
 pub(super) fn place(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
     let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
     let Some(mut node) = root.get(first.as_str()) else { return 0..0 };
@@ -26,7 +26,7 @@ pub(super) fn place(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
     node.span()
 }
 
-/// What can hold nodes.
+/// A node with children.
 pub(super) enum Container<'a, 't> {
     Table(&'a mut DeTable<'t>),
     Array(&'a mut DeArray<'t>),
@@ -67,7 +67,7 @@ pub(super) fn node<'a, 't>(root: &'a DeTable<'t>, steps: &[Step]) -> Option<&'a 
     Some(here.get_ref())
 }
 
-/// The bytes of the value at a path.
+/// The byte range of the value at a path.
 pub(super) fn node_span(root: &DeTable<'_>, steps: &[Step]) -> Option<Range<usize>> {
     let mut span = None;
     visit_entries(root, &mut Vec::new(), &mut |here, _, value| {
@@ -86,7 +86,7 @@ pub(super) fn value_at<'v>(root: &'v toml::Value, steps: &[Step]) -> Option<&'v 
     })
 }
 
-/// The deepest node whose key or value has exactly these bytes; the root where there is none.
+/// The deepest node whose key or value has exactly this byte range; the root if there is none.
 pub(super) fn find(root: &DeTable<'_>, span: &Range<usize>) -> Vec<Step> {
     let mut found: Vec<Step> = Vec::new();
     visit_entries(root, &mut Vec::new(), &mut |steps, key, value| {
@@ -98,7 +98,7 @@ pub(super) fn find(root: &DeTable<'_>, span: &Range<usize>) -> Vec<Step> {
     found
 }
 
-/// Shows every value with its path.
+/// Visits every value with its path.
 pub(super) fn visit(root: &DeTable<'_>, see: &mut impl FnMut(&[Step], &Spanned<DeValue<'_>>)) {
     visit_entries(root, &mut Vec::new(), &mut |steps, _, value| see(steps, value));
 }

@@ -1,7 +1,7 @@
-//! Writing a file whole or not at all: to a temporary file in the same folder, then a rename over the old one.
+//! Atomic file writes: to a temporary file in the same folder, then a rename over the old one.
 //!
-//! A killed program leaves the old file or the new one. Data is not forced to the disk, so a power cut may still lose a
-//! file; what must survive that carries a checksum (see [`super::restart`]).
+//! If the program is killed, the old file or the new one remains. Data is not synced to the disk, so a power cut may still lose a file; what must survive that
+//! carries a checksum (see [`super::restart`]).
 
 use std::fs;
 use std::io::{self, ErrorKind, Write};
@@ -11,19 +11,19 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// A file cannot be written.
-    #[error("cannot write {}: {}; {}", path.display(), cause(source), way_out(source))]
+    #[error("cannot write {}: {}; {}", path.display(), cause(source), advice(source))]
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// A folder cannot be made.
-    #[error("cannot make the folder {}: {}; {}", path.display(), cause(source), way_out(source))]
+    /// A folder cannot be created.
+    #[error("cannot make the folder {}: {}; {}", path.display(), cause(source), advice(source))]
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// A file cannot be read.
@@ -31,15 +31,15 @@ pub enum FileError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// A file was read but does not hold what it should.
-    #[error("{} does not hold what it should: {what}", path.display())]
+    /// A file was read but has unexpected content.
+    #[error("{} has unexpected content: {what}", path.display())]
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and a way out.
+        /// What is wrong, and a remedy.
         what: String,
     },
     /// Data that a file format cannot hold.
@@ -64,7 +64,7 @@ impl FileError {
     }
 }
 
-/// What happened, in words.
+/// The cause as text.
 fn cause(source: &io::Error) -> String {
     match source.kind() {
         ErrorKind::StorageFull | ErrorKind::WriteZero => "the disk is full".into(),
@@ -80,8 +80,8 @@ fn cause(source: &io::Error) -> String {
     }
 }
 
-/// What the user can do about it.
-fn way_out(source: &io::Error) -> &'static str {
+/// Advice for the user.
+fn advice(source: &io::Error) -> &'static str {
     match source.kind() {
         ErrorKind::StorageFull | ErrorKind::WriteZero | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
             "free some space or choose another place with --out, then go on with --resume"
@@ -93,15 +93,15 @@ fn way_out(source: &io::Error) -> &'static str {
     }
 }
 
-/// Makes a folder and all above it; no error where it exists.
+/// Creates a folder and its parents; no error if it exists.
 pub(crate) fn make_folder(path: &Path) -> Result<(), FileError> {
     fs::create_dir_all(path).map_err(|source| FileError::Folder { path: path.to_path_buf(), source })
 }
 
-/// Writes `bytes` to `path`, replacing what was there; makes the folder where it is missing.
+/// Writes `bytes` to `path`, replacing what was there; creates the folder if it is missing.
 ///
 /// # Errors
-/// [`FileError`]; then the old file, if any, is as it was and nothing else is left behind.
+/// [`FileError`]; then the old file, if any, is unchanged and nothing else is left behind.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         make_folder(folder)?;
@@ -110,7 +110,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let done =
         fs::File::create(&temporary).and_then(|file| fill(file, bytes)).and_then(|()| fs::rename(&temporary, path));
     if done.is_err() {
-        // Best effort: the first error is the one to tell.
+        // Best effort: the first error is the one to report.
         let _ = fs::remove_file(&temporary);
     }
     done.map_err(FileError::write(path))
@@ -124,7 +124,7 @@ fn fill(mut file: fs::File, bytes: &[u8]) -> io::Result<()> {
 /// Removes the temporary files that a killed program left in `folder` and the folders in it.
 ///
 /// # Errors
-/// [`FileError`] where a folder cannot be read or a file cannot be removed.
+/// [`FileError`] if a folder cannot be read or a file cannot be removed.
 pub(crate) fn remove_leftovers(folder: &Path) -> Result<(), FileError> {
     for entry in fs::read_dir(folder).map_err(FileError::read(folder))? {
         let path = entry.map_err(FileError::read(folder))?.path();
@@ -141,7 +141,7 @@ pub(crate) fn remove_leftovers(folder: &Path) -> Result<(), FileError> {
 /// Ending of the names of temporary files.
 const TEMPORARY: &str = ".part";
 
-/// A name in the same folder that no other process uses: hidden, with the process number.
+/// A name in the same folder that no other process uses: hidden, with the process ID.
 fn temporary_name(path: &Path) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     path.with_file_name(format!(".{name}.{}{TEMPORARY}", std::process::id()))

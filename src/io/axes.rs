@@ -1,4 +1,4 @@
-//! What diagrams and the curves of studies share: colors, ranges, round numbers at the axes, the legend (`plotters`).
+//! Common parts of diagrams and of the curves of studies: colors, ranges, round tick values, the legend (`plotters`).
 
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
@@ -7,9 +7,9 @@ use plotters::prelude::*;
 pub(crate) const LEGEND: u32 = 270;
 /// Height of a line of the legend in pixels.
 const LEGEND_LINE: i32 = 20;
-/// Share of the range that is left free on either side of the data.
+/// Margin on either side of the data, as a fraction of the range.
 const RIM: f64 = 0.06;
-/// Colors that color-blind eyes and gray prints keep apart (Okabe and Ito 2008).
+/// Colors distinguishable in color-blind vision and gray prints (Okabe and Ito 2008).
 const COLORS: [RGBColor; 10] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -23,19 +23,19 @@ const COLORS: [RGBColor; 10] = [
     RGBColor(0, 0, 0),
 ];
 
-/// An axis of numbers, linear or logarithmic.
+/// A numerical axis, linear or logarithmic.
 pub(crate) trait NumberAxis: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>> {}
 
 impl<A: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>> NumberAxis for A {}
 
-/// The color of a line by its number.
+/// The color of a line by its index.
 pub(crate) fn color_of(number: usize) -> RGBColor {
     COLORS[number % COLORS.len()]
 }
 
-/// The range of some values with a rim.
+/// The range of some values with a margin.
 pub(crate) fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool) -> std::ops::Range<f64> {
-    /// Half the range around a single value, as a share of it.
+    /// Half the range around a single value, relative to it.
     const AROUND_ONE: f64 = 0.5;
     let to = |value: f64| if logarithmic { value.ln() } else { value };
     let from = |value: f64| if logarithmic { value.exp() } else { value };
@@ -47,14 +47,14 @@ pub(crate) fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool
     from(low - rim)..from(high + rim)
 }
 
-/// Round numbers in a range of a logarithmic axis: powers of ten where there are enough of them, else more.
+/// Round tick values in a range of a logarithmic axis: powers of ten if there are enough of them, else more.
 pub(crate) fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
-    /// Fewest numbers that tell a scale.
+    /// Fewest tick values that show a scale.
     const FEWEST: usize = 3;
     const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
     let exponents = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
     let ticks = |steps: &[f64]| -> Vec<f64> {
-        // A product with a power of ten would leave digits behind the last one.
+        // A product with a power of ten would have spurious trailing digits.
         let tick = |step: &f64, exponent: i32| format!("{step}e{exponent}").parse().unwrap_or(f64::NAN);
         let all = exponents.clone().flat_map(|e| steps.iter().map(move |step| tick(step, e)));
         all.filter(|tick| range.contains(tick)).collect()
@@ -63,10 +63,10 @@ pub(crate) fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     candidates.find(|ticks| ticks.len() >= FEWEST).unwrap_or_else(|| ticks(STEPS[2]))
 }
 
-/// Why nothing could be drawn.
+/// Why drawing failed.
 pub(crate) type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
-/// Draws the names of the lines beside the drawing, where they hide nothing.
+/// Draws the legend beside the drawing, where it covers nothing.
 pub(crate) fn draw_legend<'a>(
     area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
     names: &[(String, RGBColor)],
@@ -79,11 +79,11 @@ pub(crate) fn draw_legend<'a>(
     Ok(())
 }
 
-/// A number at an axis: no more digits than it has.
+/// A tick label: only significant digits.
 pub(crate) fn short(value: f64) -> String {
-    /// Outside of these an exponent is shorter than zeros.
+    /// Outside of this range, an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
-    /// Rounds off what computing with ticks leaves.
+    /// Rounds off the rounding errors of ticks.
     const DIGITS: usize = 6;
     let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
     if rounded == 0.0 || FIXED.contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }

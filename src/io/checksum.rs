@@ -1,4 +1,4 @@
-//! The FNV-1a hash of 64 bits: tells whether bytes changed, by accident, not by intent.
+//! The 64-bit FNV-1a hash: detects changes of bytes by accident, not by intent.
 //!
 //! Source: Fowler, Noll, Vo, "The FNV non-cryptographic hash algorithm", IETF draft. The same on every machine and version.
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math;
 
-/// The hash of bytes that come piece by piece.
+/// The hash of a stream of bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fnv1a(u64);
 
@@ -17,7 +17,7 @@ impl Default for Fnv1a {
 }
 
 impl Fnv1a {
-    /// Takes in the next piece.
+    /// Adds the next bytes.
     pub(crate) fn pass(&mut self, bytes: &[u8]) {
         self.0 = math::fnv1a(self.0, bytes.iter().copied());
     }

@@ -1,4 +1,4 @@
-//! Draws a [`Diagram`] as SVG: a map in bands of colors, lines over it, the legend beside it (`plotters`).
+//! Draws a [`Diagram`] as SVG: a map as filled contours, lines over it, the legend beside it (`plotters`).
 
 use plotters::coord::combinators::BindKeyPoints;
 use plotters::prelude::*;
@@ -8,12 +8,12 @@ use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
 
 /// Width and height of the drawing in pixels.
 const SIZE: (u32, u32) = (620, 440);
-/// Bands of color of a map; few enough to be seen, and to keep files small.
+/// Color bands of a map; few enough to be distinguishable, and to keep files small.
 const BANDS: usize = 16;
 /// Lightest and darkest band.
 const LIGHT: [f64; 3] = [235.0, 243.0, 250.0];
 const DARK: [f64; 3] = [8.0, 48.0, 107.0];
-/// Share of its color that a band has more than the one below it.
+/// Opacity that each band adds to the one below it.
 const BAND_SHARE: f64 = 0.25;
 const GRAY: RGBColor = RGBColor(150, 150, 150);
 
@@ -23,11 +23,11 @@ const GRAY: RGBColor = RGBColor(150, 150, 150);
 pub struct DiagramError {
     /// Its name.
     pub name: &'static str,
-    /// What the drawing library says.
+    /// The error of the drawing library.
     pub why: String,
 }
 
-/// The diagram as SVG; none where nothing can be shown.
+/// The diagram as SVG; `None` if there is nothing to show.
 pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
     let shown = |axis: &Axis, value: f64| value.is_finite() && (!axis.logarithmic || value > 0.0);
     let fits = |point: &[f64; 2]| shown(&diagram.x, point[0]) && shown(&diagram.y, point[1]);
@@ -60,17 +60,17 @@ pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
     Ok(Some(text))
 }
 
-fn ends(places: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
-    let edges = edges(places, logarithmic);
+fn ends(positions: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
+    let edges = edges(positions, logarithmic);
     edges.first().copied().unwrap_or(0.0)..edges.last().copied().unwrap_or(1.0)
 }
 
-/// The edges between places, in the middle of each two, and those of the first and the last.
-fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
+/// The edges between positions, at the midpoints, and those of the first and the last.
+fn edges(positions: &[f64], logarithmic: bool) -> Vec<f64> {
     let to = |x: f64| if logarithmic { x.ln() } else { x };
     let from = |x: f64| if logarithmic { x.exp() } else { x };
-    let n = places.len();
-    let at = |i: usize| to(places[i]);
+    let n = positions.len();
+    let at = |i: usize| to(positions[i]);
     let edge = |i: usize| match i {
         0 => 1.5 * at(0) - 0.5 * at(1),
         _ if i == n => 1.5 * at(n - 1) - 0.5 * at(n - 2),
@@ -80,18 +80,18 @@ fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
 }
 
 fn band_color(band: usize) -> RGBColor {
-    let share = band as f64 / (BANDS - 1) as f64;
-    let [red, green, blue] = [0, 1, 2].map(|i| (LIGHT[i] + share * (DARK[i] - LIGHT[i])).round() as u8);
+    let fraction = band as f64 / (BANDS - 1) as f64;
+    let [red, green, blue] = [0, 1, 2].map(|i| (LIGHT[i] + fraction * (DARK[i] - LIGHT[i])).round() as u8);
     RGBColor(red, green, blue)
 }
 
-/// A share of a color on white.
-fn lightened(color: RGBColor, share: f64) -> RGBColor {
-    let mix = |part: u8| (255.0 - share.min(1.0) * (255.0 - f64::from(part))).round() as u8;
+/// A color mixed with white; `fraction` is its part.
+fn lightened(color: RGBColor, fraction: f64) -> RGBColor {
+    let mix = |part: u8| (255.0 - fraction.min(1.0) * (255.0 - f64::from(part))).round() as u8;
     RGBColor(mix(color.0), mix(color.1), mix(color.2))
 }
 
-/// Rectangles of one band each: from and to corner.
+/// Rectangles, each of one band: from and to corner.
 fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
     let highest = map.values.iter().copied().fold(0.0, f64::max);
     let band = |value: f64| ((value / highest * BANDS as f64).max(0.0) as usize).min(BANDS - 1);
@@ -124,7 +124,7 @@ fn draw<'a>(
             Stroke::Thin => GRAY,
             Stroke::Dashed => BLACK,
             Stroke::Full | Stroke::Dots => color_of(colors.next().unwrap_or(0)),
-            // Each lies upon the one before.
+            // Each lies on top of the one before.
             Stroke::Band => {
                 stacked += 1;
                 lightened(color_of(colors.start), BAND_SHARE * f64::from(stacked))
@@ -149,10 +149,10 @@ fn draw<'a>(
         }
     }
     let width = SIZE.0 + if names.is_empty() { 0 } else { LEGEND };
-    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
-    whole.fill(&WHITE)?;
-    let (area, beside) = whole.split_horizontally(SIZE.0);
-    draw_legend(&beside, &names)?;
+    let canvas = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    canvas.fill(&WHITE)?;
+    let (area, margin) = canvas.split_horizontally(SIZE.0);
+    draw_legend(&margin, &names)?;
     let mut chart = ChartBuilder::on(&area)
         .caption(diagram.title, ("sans-serif", 18))
         .margin(12)
@@ -194,7 +194,7 @@ fn draw<'a>(
             }
         }
     }
-    whole.present()
+    canvas.present()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! `restart/frames.csv`: every VTK file of a time series that was written, with its time, length and checksum.
 //!
-//! It grows with each file, before the `.pvd` names the file. A resumed run learns from it which files there must be.
+//! A row is appended for each file, before the `.pvd` names the file. A resumed run reads from it which files there must be.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use super::journal::{self, Journal, Mark};
 /// A file that was written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Written {
-    /// Where the run stood: time in s.
+    /// Time in s.
     pub time: f64,
     /// The file, relative to the folder of the run.
     pub file: String,
@@ -41,17 +41,17 @@ impl FrameList {
         Self { folder: folder.to_path_buf(), journal: Journal::new(path(folder)) }
     }
 
-    /// Goes on behind `mark`, after [`read`].
+    /// Continues after `mark`, after [`read`].
     pub(crate) fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
         Ok(Self { folder: folder.to_path_buf(), journal: Journal::resume(path(folder), mark)? })
     }
 
-    /// How much of the list there is.
+    /// The mark of the list so far.
     pub(crate) fn mark(&self) -> Mark {
         self.journal.mark()
     }
 
-    /// Writes a file and notes it.
+    /// Writes a file and records it.
     pub(crate) fn write(&mut self, time: f64, file: &str, content: &[u8]) -> Result<(), FileError> {
         atomic::write(&self.folder.join(file), content)?;
         let format = |what: String| FileError::Format { path: path(&self.folder), what };
@@ -63,10 +63,10 @@ impl FrameList {
     }
 }
 
-/// The files that were written before `mark`, in their order; a file that was written again stands there twice.
+/// The files that were written before `mark`, in order; a file that was written again is listed twice.
 ///
 /// # Errors
-/// [`FileError`] where the list is not what it was when the mark was made.
+/// [`FileError`] if the list has changed since the mark was made.
 pub(crate) fn read(folder: &Path, mark: Mark) -> Result<Vec<Written>, FileError> {
     let path = path(folder);
     let text = journal::read(&path, mark)?;
@@ -74,13 +74,13 @@ pub(crate) fn read(folder: &Path, mark: Mark) -> Result<Vec<Written>, FileError>
     rows.map_err(|error| FileError::Content { path, what: error.to_string() })
 }
 
-/// Checks that all files of a list are there as they were written.
+/// Checks that all files of a list exist with the content that was written.
 ///
 /// # Errors
-/// [`FileError`] of the first that is not.
+/// [`FileError`] of the first that does not.
 pub(crate) fn check(folder: &Path, frames: &[Written]) -> Result<(), FileError> {
     for (index, frame) in frames.iter().enumerate() {
-        // Only the last content of a file can be there.
+        // Only the last content of a file can exist.
         if frames[index + 1..].iter().take(AGAIN).any(|later| later.file == frame.file) {
             continue;
         }
@@ -98,7 +98,7 @@ pub(crate) fn check(folder: &Path, frames: &[Written]) -> Result<(), FileError> 
     Ok(())
 }
 
-/// How far behind its first content the second one of a file may stand in the list: files of one record.
+/// Largest distance in the list between two entries of the same file: files of one record.
 const AGAIN: usize = 32;
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size
 .diagrams{display:grid;grid-template-columns:repeat(auto-fill,minmax(30em,1fr));gap:1em}\
 .curves svg,figure svg{max-width:100%;height:auto}";
 
-/// The page with a title, which is a text, around `body`, which is HTML.
+/// The page with a title, given as text, around `body`, given as HTML.
 pub(crate) fn page(title: &str, body: &str) -> String {
     let title = escaped(title);
     format!(
@@ -20,7 +20,7 @@ pub(crate) fn page(title: &str, body: &str) -> String {
     )
 }
 
-/// The text with the signs of HTML written out.
+/// The text with HTML characters escaped.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

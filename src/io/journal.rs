@@ -1,7 +1,7 @@
-//! Files that grow by a piece at a time: `series.csv` and the list of written frames.
+//! Append-only files: `series.csv` and the list of written frames.
 //!
-//! A kill may leave a piece cut short at the end, or pieces that are later than the saved state. So a saved state notes with a
-//! [`Mark`] how much of the file belongs to it: a resumed run checks that this much is there unchanged, and cuts off the rest.
+//! A kill may leave a truncated entry at the end, or entries that are later than the saved state. So a saved state records with a [`Mark`] how much of the file
+//! belongs to it: a resumed run checks that this much is unchanged, and truncates the rest.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::atomic::{self, FileError};
 use super::checksum::Fnv1a;
 
-/// How much of a file there is: its length in bytes and the checksum of them.
+/// The extent of a file: its length in bytes and their checksum.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mark {
     /// In bytes.
@@ -22,7 +22,7 @@ pub struct Mark {
 }
 
 impl Mark {
-    /// The mark behind `bytes`.
+    /// The mark after `bytes`.
     pub(crate) fn behind(bytes: &[u8]) -> Self {
         let mut mark = Self::default();
         mark.pass(bytes);
@@ -35,22 +35,22 @@ impl Mark {
     }
 }
 
-/// A file that grows.
+/// An append-only file.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
-    /// None until the first piece.
+    /// `None` until the first entry.
     file: Option<File>,
     mark: Mark,
 }
 
 impl Journal {
-    /// A new one; the file is made with its first piece.
+    /// A new one; the file is created with its first entry.
     pub(crate) fn new(path: PathBuf) -> Self {
         Self { path, file: None, mark: Mark::default() }
     }
 
-    /// Goes on behind `mark`, after [`read`] found all before it unchanged: what is behind it is cut off.
+    /// Continues after `mark`, once [`read`] has found all before it unchanged: the rest is truncated.
     pub(crate) fn resume(path: PathBuf, mark: Mark) -> Result<Self, FileError> {
         let mut journal = Self::new(path);
         if mark.bytes > 0 {
@@ -66,22 +66,22 @@ impl Journal {
         &self.path
     }
 
-    /// How much there is.
+    /// The extent so far.
     pub(crate) fn mark(&self) -> Mark {
         self.mark
     }
 
-    /// Adds a piece.
+    /// Appends bytes.
     ///
     /// # Errors
-    /// [`FileError::Write`]; then the file is as it was, as far as the system allows.
+    /// [`FileError::Write`]; then the file is as before, as far as the system allows.
     pub(crate) fn append(&mut self, piece: &[u8]) -> Result<(), FileError> {
         if self.file.is_none() {
             return self.replace(piece);
         }
         let Some(file) = &mut self.file else { return Ok(()) };
         if let Err(source) = file.write_all(piece) {
-            // Best effort: the first error is the one to tell.
+            // Best effort: the first error is the one to report.
             let _ = file.set_len(self.mark.bytes);
             return Err(FileError::write(&self.path)(source));
         }
@@ -89,7 +89,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Puts `content` in place of all that is there.
+    /// Replaces the whole content.
     pub(crate) fn replace(&mut self, content: &[u8]) -> Result<(), FileError> {
         atomic::write(&self.path, content)?;
         self.file = Some(self.open().map_err(FileError::write(&self.path))?);
@@ -102,10 +102,10 @@ impl Journal {
     }
 }
 
-/// What stands before `mark` in the file.
+/// The content of the file up to `mark`.
 ///
 /// # Errors
-/// [`FileError::Read`], or [`FileError::Content`] where it is not what it was when the mark was made.
+/// [`FileError::Read`], or [`FileError::Content`] if it has changed since the mark was made.
 pub(crate) fn read(path: &Path, mark: Mark) -> Result<Vec<u8>, FileError> {
     if mark.bytes == 0 {
         return Ok(Vec::new());

@@ -1,8 +1,8 @@
-//! Files: everything that a run writes, each file whole or not at all, or row by row under a checksum.
+//! Files: everything that a run writes, each file atomically, or row by row under a checksum.
 //!
-//! [`atomic`] is the way to a whole file, [`journal`] to one that grows. [`vtk`] turns snapshots into VTK files, [`pvd`] joins them to time series, [`frames`]
-//! lists them, [`series`] keeps `series.csv`, [`restart`] the saved state, [`picture`] and [`diagram`]
-//! draw, [`html`] frames pages. Nothing here knows a solver or a case.
+//! [`atomic`] writes whole files, [`journal`] append-only ones. [`vtk`] turns snapshots into VTK files, [`pvd`] collects them into time series, [`frames`]
+//! lists them, [`series`] writes `series.csv`, [`restart`] the saved state; [`picture`] and [`diagram`] draw, [`html`] formats pages. Independent of solvers
+//! and cases.
 
 pub(crate) mod atomic;
 pub(crate) mod axes;

@@ -1,8 +1,7 @@
-//! The `.pvd` file that joins VTK files to a time series for ParaView.
+//! The `.pvd` file that collects VTK files into a time series for ParaView.
 //!
-//! Rewritten whole at each record, so that it is valid at any moment. A time is never doubled: a record at or before the
-//! last one replaces what stands there. File numbers count the records, so a resumed run goes on where it stopped; it makes the
-//! file anew from the list of written files ([`super::frames`]).
+//! Rewritten as a whole at each record, so that it is valid at any moment. Times are unique: a record at or before the last one replaces the later entries.
+//! File numbers count the records, so a resumed run continues where it stopped; it rebuilds the file from the list of written files ([`super::frames`]).
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -11,7 +10,7 @@ use std::path::{Path, PathBuf};
 use super::atomic::{self, FileError};
 use super::frames::{FrameList, Written};
 
-/// A time series of VTK files: `NAME.pvd` beside the folder `NAME/` with `NAME-000000.vtu` and so on.
+/// A time series of VTK files: `NAME.pvd` next to the folder `NAME/` with `NAME-000000.vtu` and so on.
 #[derive(Debug)]
 pub(crate) struct Collection {
     folder: PathBuf,
@@ -19,17 +18,17 @@ pub(crate) struct Collection {
     entries: Entries,
 }
 
-/// Times in s, and the lines of the `.pvd` that name them with their files.
+/// Times in s, and the lines of the `.pvd` that give them with their files.
 #[derive(Debug, Default)]
 struct Entries {
     times: Vec<f64>,
     lines: String,
-    /// Where each line begins.
+    /// Byte offset of each line.
     begins: Vec<usize>,
 }
 
 impl Entries {
-    /// Drops all at or after `time`.
+    /// Drops all entries at or after `time`.
     fn cut(&mut self, time: f64) {
         while self.times.last().is_some_and(|&last| last >= time) {
             self.times.pop();
@@ -46,7 +45,7 @@ impl Entries {
 }
 
 impl Collection {
-    /// The series in `folder` that holds what was `written` before; files of other series are passed over.
+    /// The series in `folder` with the files `written` before; files of other series are ignored.
     pub(crate) fn new(folder: &Path, name: &str, written: &[Written]) -> Self {
         let mut entries = Entries::default();
         for frame in written.iter().filter(|frame| series_of(frame) == name) {
@@ -61,7 +60,7 @@ impl Collection {
         self.folder.join(format!("{}.pvd", self.name))
     }
 
-    /// Writes the VTK file of `time` (s), notes it in `frames`, then writes the `.pvd` that names it.
+    /// Writes the VTK file of `time` (s), lists it in `frames`, then writes the `.pvd` that includes it.
     pub(crate) fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
         self.entries.cut(time);
         let file = format!("{0}/{0}-{1:06}.vtu", self.name, self.entries.times.len());
@@ -79,12 +78,12 @@ impl Collection {
 const HEAD: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
 const TAIL: &str = "  </Collection>\n</VTKFile>\n";
 
-/// The series that a file belongs to: the folder that it is in.
+/// The series of a file: the folder that contains it.
 fn series_of(frame: &Written) -> &str {
     frame.file.split_once('/').map_or("", |(series, _)| series)
 }
 
-/// Makes the `.pvd` files anew that name what was `written`, whatever is there.
+/// Rebuilds the `.pvd` files from the files `written`, regardless of existing ones.
 pub(crate) fn rebuild(folder: &Path, written: &[Written]) -> Result<(), FileError> {
     let names: BTreeSet<&str> = written.iter().map(series_of).collect();
     names.into_iter().try_for_each(|name| Collection::new(folder, name, written).write())

@@ -1,8 +1,8 @@
-//! The saved state of a run: a header that says what it belongs to, then the solver's bytes.
+//! The saved state of a run: a header that identifies it, then the solver's bytes.
 //!
-//! The header (`postcard`) holds format version, hash of the case, time, step and how much of the other files belongs to the
-//! state. A checksum of all of it comes last, so that a state of another case, of another version, cut short or changed is
-//! refused before it is used. The file before stays until the new one is complete.
+//! The header (`postcard`) has the format version, the hash of the case, the time, the step and the extent of the other files that belongs to the state. A
+//! checksum of all of it comes last, so that a state of another case, of another version, truncated or changed is refused before it is used. The previous file
+//! is kept until the new one is complete.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use super::journal::Mark;
 const MAGIC: &[u8; 8] = b"meniscus";
 /// Version of the layout of the file.
 const FORMAT_VERSION: u32 = 3;
-/// The way out of every broken state.
+/// The remedy for every damaged state.
 const START_AGAIN: &str = "put the file back from a copy, or start the run again with another --out DIR";
 /// Bytes of the checksum.
 const CHECKSUM: usize = 8;
@@ -30,11 +30,11 @@ pub struct Saved {
     pub time: f64,
     /// Number of steps done.
     pub step: u64,
-    /// How much of `series.csv` belongs to it.
+    /// The extent of `series.csv` that belongs to it.
     pub series: Mark,
-    /// How much of the list of written frames belongs to it.
+    /// The extent of the list of written frames that belongs to it.
     pub frames: Mark,
-    /// The bytes of `Solver::state`, which stand behind the header.
+    /// The bytes of `Solver::state`, which follow the header.
     #[serde(skip)]
     pub state: Vec<u8>,
 }
@@ -47,7 +47,7 @@ pub fn path(folder: &Path) -> PathBuf {
 /// Saves a state in `folder`.
 ///
 /// # Errors
-/// [`FileError`]; then the state before is still there.
+/// [`FileError`]; then the previous state still exists.
 pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
     let path = path(folder);
     let header = postcard::to_stdvec(&(FORMAT_VERSION, saved))
@@ -60,7 +60,7 @@ pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
 /// Reads the saved state in `folder` and checks that it is complete.
 ///
 /// # Errors
-/// [`FileError::Read`] where there is none, [`FileError::Content`] where it is cut short, changed or of another version.
+/// [`FileError::Read`] if there is none, [`FileError::Content`] if it is truncated, changed or of another version.
 pub fn load(folder: &Path) -> Result<Saved, FileError> {
     let path = path(folder);
     let bytes = std::fs::read(&path).map_err(FileError::read(&path))?;
@@ -109,10 +109,10 @@ mod tests {
         for length in 0..bytes.len() {
             assert!(decode(&bytes[..length]).is_err(), "{length} bytes were accepted");
         }
-        for place in 0..8 * bytes.len() {
+        for bit in 0..8 * bytes.len() {
             let mut changed = bytes.clone();
-            changed[place / 8] ^= 1 << (place % 8);
-            assert!(decode(&changed).is_err(), "bit {place} was changed and accepted");
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert!(decode(&changed).is_err(), "bit {bit} was changed and accepted");
         }
     }
 }

@@ -1,7 +1,7 @@
-//! `series.csv`: one row per record, each added behind the ones before. What a kill leaves of a row is cut off by the run that goes on.
+//! `series.csv`: one row per record, appended. A resumed run truncates a row that a kill left incomplete.
 //!
-//! Numbers are printed with as many digits as are needed to read back the same value; a value that does not exist (NaN, infinite) is
-//! an empty field, which pandas reads as NaN.
+//! Numbers are printed with as many digits as are needed to read back the same value; a value that does not exist (NaN, infinite) is an empty field, which
+//! pandas reads as NaN.
 
 use std::path::{Path, PathBuf};
 
@@ -9,10 +9,10 @@ use super::atomic::FileError;
 use super::journal::{self, Journal, Mark};
 use crate::solver::Series;
 
-/// Above this, whole numbers of a double are no longer exact and are printed with an exponent: 2^53.
+/// Above this, integers are not exact in double precision and are printed with an exponent: 2^53.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// The time series in memory, and on disk where it has a file.
+/// The time series in memory, and on disk if it has a file.
 #[derive(Debug, Default)]
 pub(crate) struct SeriesFile {
     journal: Option<Journal>,
@@ -33,10 +33,10 @@ impl SeriesFile {
         Self { journal: Some(Journal::new(path(folder))), series: Series::default() }
     }
 
-    /// The series that stands in `folder` before `mark`; what is behind it is cut off.
+    /// The series in `folder` up to `mark`; the rest is truncated.
     ///
     /// # Errors
-    /// [`FileError`] where the file is not what it was when the mark was made.
+    /// [`FileError`] if the file has changed since the mark was made.
     pub(crate) fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
         let path = path(folder);
         let series = parse(&journal::read(&path, mark)?, &path)?;
@@ -48,12 +48,12 @@ impl SeriesFile {
         &self.series
     }
 
-    /// All rows, of which no more will come.
+    /// All rows, after the last one.
     pub(crate) fn into_series(self) -> Series {
         self.series
     }
 
-    /// How much of the file there is.
+    /// The extent of the file so far.
     pub(crate) fn mark(&self) -> Mark {
         self.journal.as_ref().map(Journal::mark).unwrap_or_default()
     }
@@ -63,10 +63,10 @@ impl SeriesFile {
         FileError::Format { path: path.to_path_buf(), what }
     }
 
-    /// Adds a row, `time_s` first. A row at or before the last time replaces what stands there; minus zero becomes zero.
+    /// Adds a row, `time_s` first. A row at or before the last time replaces the later rows; minus zero becomes zero.
     ///
     /// # Errors
-    /// [`FileError::Format`] where the columns differ from those of the rows before, or another [`FileError`].
+    /// [`FileError::Format`] if the columns differ from those of the previous rows, or another [`FileError`].
     pub(crate) fn record(&mut self, columns: &[&str], row: Vec<f64>) -> Result<(), FileError> {
         if self.series.columns.is_empty() {
             self.series.columns = columns.iter().map(|&name| name.to_owned()).collect();
@@ -95,7 +95,7 @@ impl SeriesFile {
         if is_next { journal.append(&text) } else { journal.replace(&text) }
     }
 
-    /// The rows from one on, below the names of the columns where they are given.
+    /// The rows from `from` on, below the names of the columns if given.
     fn text(&self, columns: Option<&[String]>, from: usize) -> Result<Vec<u8>, FileError> {
         let format = |what: String| self.format(what);
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -107,7 +107,7 @@ impl SeriesFile {
     }
 }
 
-/// The shortest text that reads back as `value`; empty for what is no number.
+/// The shortest text that reads back as `value`; empty if it is not finite.
 pub(super) fn number(value: f64) -> String {
     if !value.is_finite() {
         String::new()

@@ -1,4 +1,4 @@
-//! Tables as CSV files: numbers with as many digits as are needed to read back the same value, empty fields where there is none.
+//! Tables as CSV files: numbers with as many digits as are needed to read back the same value, empty fields for missing values.
 
 use std::path::Path;
 

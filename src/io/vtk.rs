@@ -1,8 +1,8 @@
-//! Snapshots as VTK XML files, written by vtkio: each an unstructured grid (`.vtu`), the kind that meshio reads too.
+//! Snapshots as VTK XML files, written by vtkio: each an unstructured grid (`.vtu`), which meshio reads, too.
 //!
-//! Particles are vertices, a grid is quadrilaterals, lines are segments, since meshio knows no polylines. Points of the plane get z = 0 and vectors three
-//! components. Arrays stand where they belong, in base 64 and compressed by zlib: the form that every reader knows. LZ4 is faster, and read by VTK,
-//! ParaView and pyvista only. Times stand in the `.pvd`, units in `units.json` of the output folder.
+//! Particles are vertices, a grid is quadrilaterals, lines are segments, since meshio does not support polylines. Points of the plane get z = 0 and vectors
+//! three components. Arrays are inline, in base 64 and compressed by zlib: the form that every reader supports. LZ4 is faster, but read by VTK, ParaView and
+//! pyvista only. Times are in the `.pvd`, units in `units.json` of the output folder.
 
 mod document;
 
@@ -14,22 +14,22 @@ use self::document::{Arrays, Piece};
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
 
-/// How arrays are compressed.
+/// Compression of the arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Compression {
-    /// Not at all.
+    /// None.
     None,
-    /// By zlib at its fastest level.
+    /// zlib at its fastest level.
     #[default]
     Zlib,
-    /// By LZ4.
+    /// LZ4.
     Lz4,
 }
 
 /// A snapshot that cannot be written as VTK.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum VtkError {
-    /// A field that is longer or shorter than the points or cells it belongs to.
+    /// A field whose length differs from the number of its points or cells.
     #[error("the field {name} has {found} values, expected {expected}")]
     Length {
         /// Name of the field.
@@ -39,7 +39,7 @@ pub(crate) enum VtkError {
         /// Number of points.
         expected: usize,
     },
-    /// What the library that writes says.
+    /// The error of the writing library.
     #[error("the file cannot be written: {0}")]
     Write(String),
 }
@@ -79,7 +79,7 @@ fn indices(cell: &[u32]) -> impl Iterator<Item = usize> {
     cell.iter().map(|&point| point as usize)
 }
 
-/// Cells of one kind: their points, one after the other, and where each ends.
+/// Cells of one kind: their points, one after the other, and the end offset of each.
 struct Cells {
     kind: CellType,
     connectivity: Vec<i64>,
@@ -123,12 +123,12 @@ fn file(
     piece.into_file(compression)
 }
 
-/// Vectors of the plane with a third component of 0.
+/// 2-vectors with a third component of 0.
 fn vectors(name: &str, values: &[Vec2], compression: Compression) -> Result<DataArray, VtkError> {
     compression.array(name, 3, values.iter().flat_map(|v| [v.x, v.y, 0.0]).collect::<IOBuffer>())
 }
 
-/// The fields, each of so many values.
+/// The fields, each with `expected` values.
 fn data(fields: &[Field<'_>], expected: usize, compression: Compression) -> Result<AttributeData, VtkError> {
     let mut data = AttributeData::default();
     for Field { name, values, .. } in fields {
@@ -227,8 +227,8 @@ mod tests {
         for compression in [Compression::None, Compression::Zlib, Compression::Lz4] {
             let nothing = Lines { fields: fields(0), ..Lines::default() };
             let text = String::from_utf8(lines(&nothing, compression).unwrap()).unwrap();
-            for told in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
-                assert!(text.contains(told), "{text}");
+            for expected in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
+                assert!(text.contains(expected), "{text}");
             }
         }
     }
@@ -236,7 +236,8 @@ mod tests {
     #[test]
     fn arrays_around_the_length_of_a_block_are_read_back_to_the_bit() {
         let folder = tempfile::tempdir().unwrap();
-        let names = [Compression::None, Compression::Zlib, Compression::Lz4].map(|way| (way, format!("{way:?}")));
+        let names = [Compression::None, Compression::Zlib, Compression::Lz4]
+            .map(|compression| (compression, format!("{compression:?}")));
         // Blocks are full at 4096 numbers of a field, at 4096 vectors, and at 32768 types of cells.
         for count in [0, 1, 4095, 4096, 4097, 8192, 32767, 32768, 32769, 65536] {
             let given: Vec<Vec2> = (0..count).map(|i| Vec2::new((i as f64).sqrt(), -(i as f64) / 7.0)).collect();

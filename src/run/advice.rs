@@ -1,5 +1,5 @@
-//! Which model can answer: what the network of a case's geometry and a direct simulation of it would take, the dimensionless numbers of its pores, and
-//! the resolution of its throats.
+//! Advice on the model: the cost of the network and of a direct simulation of a case's geometry, the dimensionless numbers of its pores, and the resolution of
+//! its throats.
 
 use std::time::Instant;
 
@@ -13,22 +13,22 @@ use crate::geometry::Geometry;
 use crate::network;
 use crate::network::graph::Pores;
 
-/// Spacings across a throat from which its entry pressure holds (measured: `docs/validation/angles-at-rest.md`).
+/// Spacings across a throat from which its entry pressure is accurate (measured: `docs/validation/angles-at-rest.md`).
 const ACROSS: f64 = 8.0;
-/// Share of a width that is rounding of where shapes stand.
+/// Relative rounding error of a width, from the positions of shapes.
 const ROUNDING: f64 = 1e-9;
-/// Above this capillary number viscous pressure drops over a few pores change which one is entered.
+/// Above this capillary number, viscous pressure drops over a few pores change which one is invaded.
 const QUASI_STATIC: f64 = 1e-4;
-/// Above this Bond number of the largest pore gravity bends its menisci by more than a few percent.
+/// Above this Bond number of the largest pore, gravity deforms its menisci by more than a few percent.
 const WEIGHTLESS: f64 = 0.1;
-/// A direct run of more hours than this is one to think about.
+/// A direct run of more hours than this deserves a second thought.
 const LONG_HOURS: f64 = 24.0;
-/// Geometries of more shapes are not cut into pores for an advice.
+/// Geometries of more shapes are not partitioned into pores for an advice.
 const MOST_SHAPES: usize = 20_000;
-/// Ratio above which two maxima of the wall distance count as one pore: that of `[network]` where it says nothing.
+/// Persistence ratio above which two maxima of the wall distance count as one pore: the default of `[network]`.
 const PERSISTENCE: f64 = 0.95;
 
-/// What is known before a choice of the model.
+/// Properties of a case that guide the choice of the model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) struct Advice {
@@ -36,14 +36,14 @@ pub(crate) struct Advice {
     pub(crate) pores: usize,
     /// Number of throats.
     pub(crate) throats: usize,
-    /// Wall time in s that finding them took.
+    /// Wall time of the extraction in s.
     pub(crate) network_s: f64,
     /// Width of the narrowest throat in m.
     pub(crate) narrowest_throat_m: f64,
-    /// Widths of the narrowest and of the median throat over the depth of the chip; absent in the plane.
+    /// Widths of the narrowest and of the median throat relative to the depth of the chip; `None` in the plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) widths_over_depth: Option<[f64; 2]>,
-    /// Spacing in m of a direct simulation: that of the case, or the one that puts eight across the narrowest throat.
+    /// Spacing in m of a direct simulation: that of the case, or the one with eight spacings across the narrowest throat.
     pub(crate) spacing_m: f64,
     /// Spacings across the narrowest throat.
     pub(crate) spacings_across: f64,
@@ -51,15 +51,15 @@ pub(crate) struct Advice {
     pub(crate) coarse_throats: usize,
     /// Particles of a direct simulation at that spacing.
     pub(crate) particles: f64,
-    /// Steps of a direct simulation, where they were tried.
+    /// Steps of a direct simulation, if trial steps were done.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) steps: Option<f64>,
-    /// Hours of a direct simulation on as many threads as there are now, where it was tried.
+    /// Hours of a direct simulation with the present number of threads, if trial steps were done.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hours: Option<f64>,
     /// Numbers of the smallest, the median and the largest pore.
     pub(crate) numbers: Vec<PoreNumbers>,
-    /// Which model can answer.
+    /// Which model is applicable.
     pub(crate) sentence: String,
 }
 
@@ -71,9 +71,9 @@ pub(crate) struct PoreNumbers {
     pub(crate) pore: &'static str,
     /// R in m.
     pub(crate) radius_m: f64,
-    /// Ca = mu U / sigma, U being the given speed, or sqrt(sigma / rho R) where menisci drive the flow.
+    /// Ca = mu U / sigma, U being the prescribed speed, or sqrt(sigma / rho R) if menisci drive the flow.
     pub(crate) capillary: f64,
-    /// Oh = mu / sqrt(rho sigma R): viscous forces against inertia where menisci drive the flow.
+    /// Oh = mu / sqrt(rho sigma R): viscous forces relative to inertia if menisci drive the flow.
     pub(crate) viscous: f64,
     /// Bo = |rho_w - rho_n| g R² / sigma.
     pub(crate) bond: f64,

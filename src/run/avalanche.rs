@@ -1,6 +1,6 @@
-//! One avalanche of a slow displacement: the events that one rise of the pressure sets off, and the pressures around it.
+//! One avalanche of a slow displacement: the events triggered by one rise of the pressure, and the pressures around it.
 //!
-//! A direct simulation that begins at rest before it, at a pressure a little beyond, shows its dynamics.
+//! A direct simulation that starts at rest before it, at a slightly higher pressure, shows its dynamics.
 
 use serde::Serialize;
 
@@ -12,24 +12,24 @@ use crate::network::solver::NetworkSolver;
 use crate::network::state;
 use crate::solver::{Solver, SolverError};
 
-/// Name of the text that a network leaves at its end.
+/// Name of the text of a network's final state.
 const AT_END: &str = "at-end.json";
 
-/// Which avalanche is meant: the one with the first such event.
+/// Selects an avalanche: the one with the first such event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wanted {
     /// The invading phase reaches the outlet.
     Breakthrough,
     /// Two menisci meet.
     Overlap,
-    /// The invading phase enters the pore of this number.
+    /// The invading phase enters the pore with this number.
     Pore(usize),
 }
 
 /// A displacement in which the avalanche cannot be found.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum AvalancheError {
-    /// The case is no slow displacement in a network.
+    /// The case is not a slow displacement in a network.
     #[error("the first case has no slow displacement in a network; give [network] an inlet, and no [network.dynamic]")]
     NoNetwork,
     /// There is no such event.
@@ -40,7 +40,7 @@ pub(crate) enum AvalancheError {
         /// Number of pores.
         pores: usize,
     },
-    /// What is asked for is there before the first event.
+    /// The requested event has happened before the first one.
     #[error("this is so from the beginning, without an event; name a later one")]
     FromTheBeginning,
     /// The case cannot be set up.
@@ -58,9 +58,9 @@ pub(crate) struct Avalanche {
     pub(crate) invading: FluidPhase,
     /// Capillary pressure p_n - p_w in Pa at which it begins.
     pub(crate) pressure_pa: f64,
-    /// One at which the menisci rest before it, in Pa.
+    /// A pressure at which the menisci are at rest before it, in Pa.
     pub(crate) rest_pressure_pa: f64,
-    /// Tension times the size of the curvature in the plane then, in Pa: with a depth less than the pressure.
+    /// Tension times the magnitude of the in-plane curvature then, in Pa: with a depth, less than the pressure.
     #[serde(skip)]
     pub(crate) in_plane_pa: f64,
     /// Saturation of the wetting phase before and after it.
@@ -103,11 +103,11 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     let tension = solver.config().tension.ok_or(AvalancheError::NoNetwork)?;
     let earlier = first.checked_sub(1).map(|index| history[index]);
     let direction = if state.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
+    let at_rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
     Ok(Avalanche {
         invading: state.invading,
         pressure_pa: solver.config().pressure(state.invading, applied),
-        rest_pressure_pa: solver.config().pressure(state.invading, rest),
+        rest_pressure_pa: solver.config().pressure(state.invading, at_rest),
         in_plane_pa: tension * applied.abs(),
         saturation: [earlier.map_or(before, |entry| entry.saturation), history[first + events - 1].saturation],
         events,
@@ -115,7 +115,7 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     })
 }
 
-/// The text of the state that a displacement leaves at its end.
+/// The text of the final state of a displacement.
 pub(crate) fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
     let mut solver = super::setup::build(case)?;
     while !solver.is_done() {
@@ -125,7 +125,7 @@ pub(crate) fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
     documents.into_iter().find(|one| one.name == AT_END).map(|one| one.text).ok_or(AvalancheError::NoNetwork)
 }
 
-/// Whether what is asked for has happened.
+/// Whether the requested event has happened.
 fn is_so(solver: &NetworkSolver, wanted: Wanted, outlet: &[usize]) -> bool {
     let Some(cycles) = solver.cycles() else { return false };
     let displacement = cycles.displacement();

@@ -1,4 +1,4 @@
-//! What can be told of a run before it starts: what it would take, doubts, and which model can answer.
+//! Checks before a run: its cost, doubts, and which model is applicable.
 
 use super::advice::{self, Advice};
 use super::description::doubts;
@@ -10,20 +10,20 @@ use crate::solver::{Series, Solver, SolverError};
 /// A case whose first steps were tried.
 #[derive(Debug)]
 pub struct Checked {
-    /// What a run would take.
+    /// Estimated cost of a run.
     pub(crate) trial: Trial,
-    /// What a reader should know before a run.
+    /// Warnings before a run.
     pub(crate) warnings: Vec<String>,
-    /// What both models would take, where both can be asked.
+    /// The cost of both models, if both are possible.
     pub(crate) advice: Option<Advice>,
 }
 
-/// Tries the first steps of a case with its solver at time zero, without any file; `tried` receives the share of them that is done.
+/// Tries the first steps of a case with its solver at time zero, without any file; `tried` receives the completed fraction.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
 pub fn check(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Checked, SolverError> {
-    // Those with which a run begins: they do not depend on how many steps are tried.
+    // The warnings at the start of a run: they do not depend on the number of trial steps.
     let mut warnings = setup::warnings(case, solver, &Series::default());
     warnings.extend(doubts(case));
     let trial = trial(case, solver, tried)?;
@@ -37,11 +37,11 @@ impl Checked {
     /// # Errors
     /// None that is known: all of it can be written as JSON.
     pub fn json(&self) -> Result<String, serde_json::Error> {
-        let mut told = serde_json::to_value(&self.trial)?;
-        told["warnings"] = serde_json::to_value(&self.warnings)?;
+        let mut report = serde_json::to_value(&self.trial)?;
+        report["warnings"] = serde_json::to_value(&self.warnings)?;
         if let Some(advice) = &self.advice {
-            told["advice"] = serde_json::to_value(advice)?;
+            report["advice"] = serde_json::to_value(advice)?;
         }
-        serde_json::to_string_pretty(&told)
+        serde_json::to_string_pretty(&report)
     }
 }

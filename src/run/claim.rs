@@ -1,7 +1,7 @@
-//! The right to work in the folder of a run: one process at a time.
+//! Exclusive access to the folder of a run: one process at a time.
 //!
-//! `restart/run.lock` is locked by the operating system, which takes the lock back when a process ends, however it ends: none is ever
-//! left over. In the file stands who holds it, for the message only.
+//! `restart/run.lock` is locked by the operating system, which releases the lock when a process ends, however it ends: no lock is ever left over. The content
+//! of the file names the holder, for messages only.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, Write};
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 use super::folder_error::FolderError;
 use crate::io::{FileError, atomic};
 
-/// The right to work in a folder; it ends when this is dropped.
+/// Exclusive access to a folder; it ends when this is dropped.
 #[derive(Debug)]
 pub(crate) struct Claim(File);
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // Nobody works here any more; what stands in the file is only told, so that an error does not matter.
+        // The folder is released; the content of the file is informative only, so an error does not matter.
         let _ = self.0.set_len(0);
     }
 }
@@ -25,22 +25,22 @@ fn path(folder: &Path) -> PathBuf {
     folder.join("restart").join("run.lock")
 }
 
-/// Takes the right to work in `folder`.
+/// Acquires exclusive access to `folder`.
 ///
 /// # Errors
-/// [`FolderError::InUse`] where another process has it, [`FolderError::File`].
+/// [`FolderError::InUse`] if another process has it, [`FolderError::File`].
 pub(crate) fn claim(folder: &Path) -> Result<Claim, FolderError> {
     let path = path(folder);
     atomic::make_folder(&folder.join("restart"))?;
     let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
     let mut file = lock(folder, opened.map_err(FileError::write(&path))?)?;
-    let told = format!("process {} on {}\n", std::process::id(), host());
+    let holder = format!("process {} on {}\n", std::process::id(), host());
     file.set_len(0).and_then(|()| file.rewind()).map_err(FileError::write(&path))?;
-    file.write_all(told.as_bytes()).map_err(FileError::write(&path))?;
+    file.write_all(holder.as_bytes()).map_err(FileError::write(&path))?;
     Ok(Claim(file))
 }
 
-/// Looks whether another process works in `folder`; nothing is made or changed there.
+/// Checks whether another process works in `folder`; nothing is created or changed there.
 pub(crate) fn existing(folder: &Path) -> Result<(), FolderError> {
     match File::open(path(folder)) {
         Ok(file) => lock(folder, file).map(drop),
@@ -52,20 +52,20 @@ fn lock(folder: &Path, mut file: File) -> Result<File, FolderError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
             let mut by = String::new();
-            // Only to be told: without it the message is shorter.
+            // For the message only: without it, the message is shorter.
             let _ = file.read_to_string(&mut by);
             let by = if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) };
             Err(FolderError::InUse { folder: folder.to_path_buf(), by })
         }
-        // A file system without locks, as some clusters have: there is nothing to hold the folder by.
+        // A file system without locks, as on some clusters: exclusive access cannot be enforced.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }
 
-/// The name of this machine, where the system tells.
+/// The name of this machine, if the system reports it.
 fn host() -> String {
-    let told = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().map(|name| name.trim().to_owned());
-    told.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "this machine".to_owned())
+    let hostname = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().map(|name| name.trim().to_owned());
+    hostname.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "this machine".to_owned())
 }
 
 #[cfg(test)]

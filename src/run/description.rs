@@ -1,11 +1,11 @@
-//! A case in words, and what about its numbers is so unusual that it may be a slip: both for a reader before a run.
+//! A case as text, and unusual numbers in it that may be slips: both for a reader before a run.
 
 use super::numbers::{Length, numbers};
 use crate::case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
 use crate::input::tables::Words;
 use crate::math::Vec2;
 
-/// The parts of a case by name: its phases, its interface and its sides; those that it has.
+/// The parts of a case by name: its phases, its interface and its sides, if it has them.
 pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
     let (fluids, interface, sides) = match &case.model {
         Model::Sph(sph) => {
@@ -40,11 +40,11 @@ pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
         .collect()
 }
 
-/// Numbers that are right by themselves and rarely meant, each with what may have been meant.
+/// Numbers that are valid but rarely intended, each with what may have been intended.
 pub(crate) fn doubts(case: &Case) -> Vec<String> {
     /// Pores are smaller, in m.
     const LARGEST: f64 = 1.0;
-    /// Beyond this Bond number an interface is flat all over the domain.
+    /// Above this Bond number, an interface is flat all over the domain.
     const FLAT: f64 = 1e3;
     /// No liquid but a molten metal has more, in N/m.
     const STRONGEST: f64 = 1.0;
@@ -83,7 +83,7 @@ pub(crate) fn doubts(case: &Case) -> Vec<String> {
     doubts
 }
 
-/// A weight along a wall without end, and a contact line that nothing holds.
+/// A weight along an unbounded wall, and a contact line that is not pinned.
 fn never_at_rest(sph: &Sph) -> Option<String> {
     let other = sph.non_wetting?;
     let along = [(sph.sides.left, sph.gravity.x), (sph.sides.bottom, sph.gravity.y)];
@@ -97,8 +97,8 @@ fn never_at_rest(sph: &Sph) -> Option<String> {
     })
 }
 
-/// A drop that is left alone and whose run ends before its oscillations have decayed: those of the second mode do as exp(−4 ν t/R²) in the plane,
-/// by Lamb's dissipation, with the radius R of the drop (Lamb 1932, §355).
+/// A freely oscillating drop whose run ends before the oscillations have decayed: those of the second mode decay as exp(−4 ν t/R²) in the plane, by Lamb's
+/// dissipation, with the radius R of the drop (Lamb 1932, §355).
 fn ends_early(case: &Case, sph: &Sph) -> Option<String> {
     let is_alone = sph.open.iter().all(Option::is_none) && sph.wall_speeds == [0.0; 4] && sph.gravity == Vec2::zeros();
     let area = super::setup::drop_area(case).filter(|_| is_alone && sph.acting_tension() > 0.0)?;
@@ -117,7 +117,7 @@ fn in_words(fluid: Fluid) -> String {
     format!("{} kg/m3, {} mPa s", rounded(fluid.density), rounded(1e3 * fluid.viscosity))
 }
 
-/// The angles in rad between which a line can rest, with the key of their law.
+/// The range of angles at rest in rad, with the key of their law.
 fn angle((range, name): ([f64; 2], String)) -> String {
     let [receding, advancing] = range.map(f64::to_degrees);
     if receding == advancing {
@@ -131,7 +131,7 @@ fn in_order(sides: &Sides) -> String {
     named.collect::<Vec<_>>().join(", ")
 }
 
-/// A number with at most four digits and no zeros at its end.
+/// A number with at most four digits and no trailing zeros.
 fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -1,32 +1,31 @@
-//! How far a quantity of the series may still be from its end, and how fast it moves.
+//! Remaining change of a quantity of the series, and its rate.
 //!
-//! With the means m₁, m₂, m₃ over three equal windows that end at the last row, an exponential approach leaves |d₂| r/(1 − r), d₁ = m₂ − m₁,
-//! d₂ = m₃ − m₂, r = d₂/d₁, cut off at [`steady::SLOWEST`]. A quantity that swings, so that d₁ and d₂ may differ in sign, is
-//! off by half of its range in the last window at most. An angle that goes towards the one at rest is as far from its end as from that: spreading
-//! is a power law, of which three windows tell too little.
+//! With the means m₁, m₂, m₃ over three equal windows that end at the last row, an exponential approach leaves |d₂| r/(1 − r), d₁ = m₂ − m₁, d₂ = m₃ − m₂, r =
+//! d₂/d₁, cut off at [`steady::SLOWEST`]. A quantity that oscillates, so that d₁ and d₂ may differ in sign, is off by half of its range in the last window at
+//! most. An angle that approaches the one at rest has that whole distance left: spreading is a power law, which three windows do not determine.
 //!
-//! A contact angle can pass its end and turn back: a flow that loses the kinetic energy E can do the work E on an interface of the length L, and
-//! so turn it by up to √(2E/(σL)). E is at most what the whole domain has in the last window.
+//! A contact angle can overshoot and return: a flow that loses the kinetic energy E can do the work E on an interface of the length L, and so turn it by up to
+//! √(2E/(σL)). E is at most the kinetic energy of the whole domain in the last window.
 
 use super::steady::{self, last_windows, range};
 use crate::case::SteadyStop;
 use crate::solver::{Quantity, Series, Watched};
 
-/// How a quantity moves at the end of a run.
+/// The motion of a quantity at the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Drift {
-    /// How far it may be from its end, in its unit.
+    /// Remaining change, in its unit.
     pub(crate) left: f64,
     /// Its rate over the last window, in its unit per s.
     pub(crate) rate: f64,
-    /// How far the flow may still carry it, in its unit, however little it moves.
+    /// Possible change due to the flow, in its unit, however slowly it moves.
     pub(crate) by_flow: f64,
-    /// How far it is from the only value at which it can rest, in its unit; 0 where it may rest at others.
+    /// Distance from the only value at which it can be at rest, in its unit; 0 if there are others.
     pub(crate) off: f64,
 }
 
 impl Drift {
-    /// The drift of a column of `series` over windows of a fifth of the time; none where it is not known in each of them.
+    /// The drift of a column of `series` over windows of a fifth of the time; `None` if it is not known in each of them.
     pub(crate) fn of(series: &Series, column: &str) -> Option<Self> {
         let index = series.columns.iter().position(|one| one == column)?;
         let [.., last_rows] = last_windows(&series.rows, &SteadyStop::default())?;
@@ -39,24 +38,24 @@ impl Drift {
         (left.is_finite() && rate.is_finite()).then_some(Self { left, rate, by_flow: 0.0, off: 0.0 })
     }
 
-    /// The drift of a watched quantity that has come to `value`.
+    /// The drift of a watched quantity that has reached `value`.
     pub(crate) fn of_watched(series: &Series, Watched { column, kind }: Watched, value: f64) -> Option<Self> {
         let mut drift = Self::of(series, column)?;
         if let Quantity::Angle { energy, length, tension, at_rest, pins } = kind {
             let length = series.column(length).last().unwrap_or(f64::NAN);
             let turn = (2.0 * energy_to_lose(series, energy) / (tension * length)).sqrt().to_degrees();
             drift.by_flow = if turn.is_finite() { turn } else { 0.0 };
-            let way = at_rest.map_or(0.0, |[least, most]| value.clamp(least, most) - value);
-            if goes(series, column, way) || moved(series, column) > MOVED * way.abs() {
-                drift.left = drift.left.max(way.abs());
+            let distance = at_rest.map_or(0.0, |[least, most]| value.clamp(least, most) - value);
+            if approaches(series, column, distance) || moved(series, column) > MOVED * distance.abs() {
+                drift.left = drift.left.max(distance.abs());
             }
-            drift.off = if pins { 0.0 } else { way.abs() };
+            drift.off = if pins { 0.0 } else { distance.abs() };
         }
         Some(drift.within(kind.range(), value))
     }
 
-    /// The same for a quantity of a standard uncertainty `known` at one time: what is farther from the only value at which it can rest than its error
-    /// explains has not come to rest, however slowly it moves.
+    /// The same for a quantity of a standard uncertainty `known` at one time: if it is farther from the only value at which it can be at rest than its error
+    /// explains, it is not at rest, however slowly it moves.
     pub(crate) fn beside(self, known: f64) -> Self {
         let is_off = self.off > FAR * known && self.off > FARTHEST_ERROR;
         Self { left: if is_off { self.left.max(self.off) } else { self.left }, ..self }
@@ -68,20 +67,20 @@ impl Drift {
         Self { left: size * self.left, rate: factor * self.rate, by_flow: size * self.by_flow, off: size * self.off }
     }
 
-    /// The same for a quantity that cannot leave the range `[least, most]`, and has come to `value`.
+    /// The same for a quantity confined to the range `[least, most]`, which has reached `value`.
     fn within(self, [least, most]: [f64; 2], value: f64) -> Self {
         let possible = (value - least).max(most - value);
         Self { left: self.left.min(possible), by_flow: self.by_flow.min(possible), ..self }
     }
 }
 
-/// Uncertainties by which an angle at rest may be off.
+/// Number of uncertainties by which an angle at rest may be off.
 const FAR: f64 = 3.0;
 
-/// Degrees by which it may be off, however small its bar.
+/// Degrees by which it may be off, however small its uncertainty.
 const FARTHEST_ERROR: f64 = 1.5;
 
-/// Share of the way to its end by which an angle that swings about it, and turns back, moved within three windows.
+/// Fraction of the remaining change by which an angle that oscillates about its end moved within three windows.
 const MOVED: f64 = 0.5;
 
 /// Values of a column in the last three windows.
@@ -100,31 +99,31 @@ fn moved(series: &Series, column: &str) -> f64 {
     windows(series, column).map_or(0.0, |windows| range(&windows.concat()))
 }
 
-/// Whether a column is on its `way` to an end that is known: its mean goes there from window to window, in the last by more than
-/// [`NOISE`] of the range in the window and by more than [`SLOWEST`] of the way.
+/// Whether a column approaches a known end over the signed `distance`: its mean moves there from window to window, in the last by more than [`NOISE`] of the range
+/// in the window and by more than [`SLOWEST`] of the distance.
 ///
 /// Spreading is a power law: an exponential through three windows ends long before the angle at rest.
-fn goes(series: &Series, column: &str, way: f64) -> bool {
+fn approaches(series: &Series, column: &str, distance: f64) -> bool {
     let Some(windows) = windows(series, column) else { return false };
     let [first, second, third] = windows.each_ref().map(|values| mean(values));
-    let (before, now) = ((second - first) * way.signum(), (third - second) * way.signum());
-    before > 0.0 && now > NOISE * range(&windows[2]) && now > SLOWEST * way.abs()
+    let (before, now) = ((second - first) * distance.signum(), (third - second) * distance.signum());
+    before > 0.0 && now > NOISE * range(&windows[2]) && now > SLOWEST * distance.abs()
 }
 
-/// Share of the range within a window by which its mean moves where that is no noise; a straight line moves by the whole of it.
+/// Fraction of the range within a window by which its mean moves if that is not noise; a straight line moves by all of it.
 const NOISE: f64 = 0.5;
 
-/// Share of the way to its end by which a quantity moves in a window; a slower one rests elsewhere, by its error.
+/// Fraction of the distance to its end by which a quantity moves in a window; a slower one is at rest elsewhere, within its error.
 const SLOWEST: f64 = 0.01;
 
-/// What of the kinetic energy in a column is still to be lost, in its unit; 0 where it does not fall.
+/// The kinetic energy of a column that is still to be dissipated, in its unit; 0 if it does not fall.
 fn energy_to_lose(series: &Series, column: &str) -> f64 {
     let Some(drift) = Drift::of(series, column).filter(|drift| drift.rate < 0.0) else { return 0.0 };
     let [.., last] = windows(series, column).unwrap_or_default();
     drift.left.min(last.into_iter().fold(0.0, f64::max))
 }
 
-/// Slope of the straight line of least squares through a column of `rows` over the time in their first column.
+/// Least-squares slope of a column of `rows` over the time in their first column.
 fn slope(rows: &[Vec<f64>], column: usize) -> f64 {
     let count = rows.len() as f64;
     let mean = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>() / count;
@@ -183,7 +182,7 @@ mod tests {
         let end = (-3.0_f64).exp();
         let found = turn(|t| 1.0e-7 * (-3.0 * t).exp());
         assert!(found >= by(1.0e-7 * end) && found <= 1.2 * by(1.0e-7 * end), "{found}");
-        // Never more than there is, and nothing of a flow that speeds up or goes on.
+        // Never more than there is, and nothing for a flow that accelerates or continues.
         let found = turn(|t| 1.0e-7 * (1.0 - t));
         assert!(found > 0.0 && found <= by(0.2e-7), "{found}");
         assert_eq!([turn(|t| 1.0e-7 * t), turn(|_| 1.0e-7)], [0.0, 0.0]);
@@ -207,7 +206,7 @@ mod tests {
             for (end, excess) in [(8.0, 1.1), (10.0, 3.2), (40.0, 5.0), (120.0, 10.0), (60.0, -4.0)] {
                 let (drift, value) = spreading(|t| end + excess * t.powf(-exponent), [end; 2]);
                 assert!(drift.left >= 0.999 * (value - end).abs(), "{exponent} {end} {excess}: {drift:?}");
-                // What a wall of two angles lets rest on the way is nearer.
+                // With hysteresis, the nearest angle at rest is reached sooner.
                 let (less, _) = spreading(|t| end + excess * t.powf(-exponent), [end - 9.0, end + 9.0]);
                 assert!(less.left < drift.left || excess > 9.0, "{exponent} {end} {excess}: {less:?}");
             }

@@ -1,4 +1,4 @@
-//! Runs of networks within this process, many of which share a network: no folder of output, but what is kept of each.
+//! Runs of networks within this process, many of which share a network: no output folder; selected results are kept of each.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -16,7 +16,7 @@ use crate::network::setup;
 pub(crate) use crate::network::ensemble::SATURATIONS;
 pub(crate) use crate::network::measures::Costly;
 
-/// The network of a case; none where it has another model.
+/// The network of a case; `None` if it has another model.
 fn network(case: &Case) -> Option<&PoreNetwork> {
     match &case.model {
         Model::Network(network) => Some(network),
@@ -24,7 +24,7 @@ fn network(case: &Case) -> Option<&PoreNetwork> {
     }
 }
 
-/// Whether a case is one of a network.
+/// Whether the model of a case is a network.
 pub(crate) fn is_of_network(case: &Case) -> bool {
     network(case).is_some()
 }
@@ -34,20 +34,20 @@ pub(crate) fn shared_by(case: &Case) -> String {
     network(case).map_or(String::new(), |network| format!("{:?} {:?}", network.sides, network.persistence))
 }
 
-/// A network that was extracted, with nothing in it.
+/// An extracted network before any displacement.
 pub(crate) struct Ground(setup::Ground);
 
-/// The parts of the pore space of a network, on which maps are drawn.
+/// The partition of the pore space of a network, on which maps are drawn.
 pub(crate) struct Map(Reference);
 
-/// What is kept of a run.
+/// The results kept of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Outcome {
     /// Name, unit and value of each measure.
     pub(crate) measures: Vec<(String, String, f64)>,
     /// For each half cycle the capillary pressure in Pa at [`SATURATIONS`] equidistant saturations of the wetting phase from 0 to 1.
     pub(crate) curves: Vec<Vec<f64>>,
-    /// Which parts of the map the invading phase held when it reached the outlet, or at the end of the first half cycle.
+    /// Which parts of the map the invading phase had filled at breakthrough, or at the end of the first half cycle.
     pub(crate) invaded: Vec<bool>,
     /// Number of events or steps.
     pub(crate) steps: u64,
@@ -58,14 +58,14 @@ pub(crate) struct Outcome {
 /// No measure that takes long.
 const NONE: Costly = Costly { permeabilities: false, entry_pressures: false };
 
-/// The error of a case that is none of a network.
+/// The error of a case without a network.
 const NO_NETWORK: &str = "the case has no network";
 
 impl Ground {
     /// The network of a case, and the map of it.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// What is wrong, as text.
     pub(crate) fn of(case: &Case) -> Result<Self, String> {
         let network = network(case).ok_or(NO_NETWORK)?;
         setup::Ground::of(case, network)
@@ -76,7 +76,7 @@ impl Ground {
     /// The parts of the pore space as a case divides it.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// What is wrong, as text.
     pub(crate) fn map(&self, case: &Case) -> Result<Map, String> {
         Ok(Map(self.sample(case, NONE)?.reference()))
     }
@@ -86,10 +86,10 @@ impl Ground {
         Sample::on(&self.0, case, network, costly).map_err(|error| error.to_string())
     }
 
-    /// Runs a case on this network, without the costly measures that are left out; none where it was interrupted.
+    /// Runs a case on this network, without the costly measures that are left out; `None` if it was interrupted.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// What is wrong, as text.
     pub(crate) fn run(
         &self,
         case: &Case,
@@ -112,7 +112,7 @@ impl Ground {
 }
 
 impl Map {
-    /// The moment that it shows.
+    /// The moment that the map shows.
     pub(crate) fn moment(&self) -> &'static str {
         self.0.moment()
     }
@@ -122,7 +122,7 @@ impl Map {
         self.0.len()
     }
 
-    /// Names of the half cycles of a displacement that is quasi-static.
+    /// Names of the half cycles of a quasi-static displacement.
     pub(crate) fn processes(&self) -> &[&'static str] {
         self.0.processes()
     }
@@ -130,7 +130,7 @@ impl Map {
     /// Writes the probability with which each part is invaded as `invasion.csv`, `invasion.vtu` and `invasion.png`, their names followed by `suffix`.
     ///
     /// # Errors
-    /// [`FileError`] with the path and a way out.
+    /// [`FileError`] with the path and a remedy.
     pub(crate) fn write(
         &self,
         folder: &Path,

@@ -23,21 +23,21 @@ use crate::io::picture::{PictureError, picture, region_map_picture};
 use crate::io::{FileError, atomic, diagram, table, vtk};
 use crate::solver::{Clock, Results, Series, Solver, StateError};
 
-/// Whether a run is new or goes on with one that stopped.
+/// Whether a run is new or resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// In a folder that does not exist or is empty.
     New,
-    /// From the saved state in the folder; that of a run that ended may go on to a later end.
+    /// From the saved state in the folder; a run that ended may be extended to a later end.
     Resume,
 }
 
-/// What is to be run and where the results go.
+/// A run and its output folder.
 #[derive(Debug, Clone)]
 pub struct Job<'a> {
     /// The case.
     pub case: &'a Case,
-    /// The case file with all that was filled in.
+    /// The case file with all defaults filled in.
     pub resolved: &'a str,
     /// The output folder.
     pub folder: PathBuf,
@@ -45,7 +45,7 @@ pub struct Job<'a> {
     pub mode: Mode,
 }
 
-/// A run that has no report.
+/// Why a run has no report.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The output folder cannot be used.
@@ -62,7 +62,7 @@ pub enum RunError {
     Case(String),
 }
 
-/// A run that ended, well or not, and left a report.
+/// A run that ended, successfully or not, and left a report.
 #[derive(Debug)]
 pub struct Finished {
     /// The report, as written.
@@ -77,16 +77,16 @@ pub struct Finished {
     pub was_at_end: bool,
 }
 
-/// The hash that tells whether a saved state belongs to a case: equal for equal values, however they were written.
+/// The hash that identifies the case of a saved state: equal for equal values, however they were written.
 pub(crate) fn case_hash(case: &Case) -> Result<u64, RunError> {
     serde_json::to_vec(case).map(|bytes| fnv1a(&bytes)).map_err(|error| RunError::Case(error.to_string()))
 }
 
-/// Runs a case with its solver, which stands at time zero. `interrupt` stops it after the present step.
+/// Runs a case with its solver, which is at time zero. `interrupt` stops it after the present step.
 ///
 /// # Errors
-/// [`RunError`] where there is no folder to write to or a record cannot be written. A solver that fails, an interrupt or
-/// a missed expectation are no errors here: the report says so.
+/// [`RunError`] if there is no folder to write to or a record cannot be written. A failing solver, an interrupt or a missed expectation are not errors here:
+/// the report states them.
 pub fn execute(
     job: &Job<'_>,
     solver: &mut dyn Solver,
@@ -105,17 +105,17 @@ pub fn execute(
     let steady = job.case.steady;
     let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
     let was_at_end = start != Start::New && simulation.is_at_end();
-    let begun = if start == Start::New { simulation.begin() } else { simulation.go_on() };
-    let ended = begun.and_then(|()| simulation.run());
+    let started = if start == Start::New { simulation.begin() } else { simulation.go_on() };
+    let ended = started.and_then(|()| simulation.run());
     let written = records.finish();
     let ended = ended.and_then(|outcome| written.map(|()| outcome));
     let mut report = report(job.case, job.resolved, solver, &records, &ended);
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     report.cpu_s = records.processor_time();
-    // The report of the run that reached the end tells more: its wall time, its machine.
+    // The report of the run that reached the end has more: its wall time, its machine.
     let is_told = was_at_end && report::is_of_the_end(&job.folder);
     let written = if is_told { Ok(()) } else { report.write(&job.folder) };
-    // The record that could not be written is the error to tell, not the report after it.
+    // The record that could not be written is the error to report, not the report after it.
     ended?;
     written?;
     let results = solver.results();
@@ -125,7 +125,7 @@ pub fn execute(
     Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
 }
 
-/// Makes the folder, or takes up the saved state in it; no other process may work in it meanwhile.
+/// Creates the folder, or loads the saved state in it, with exclusive access.
 fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, Claim), RunError> {
     match job.mode {
         Mode::New => Ok((Start::New, folder::create(&job.folder)?)),
@@ -138,7 +138,7 @@ fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, 
     }
 }
 
-/// The report of a run that `ended` so, without its total times.
+/// The report of a run, given how it `ended`, without its total times.
 pub(super) fn report(
     case: &Case,
     resolved: &str,
@@ -196,7 +196,7 @@ pub(super) fn drawn(case: &Case, solver: &dyn Solver, results: &Results<'_>) -> 
     }
 }
 
-/// Draws the state at the end. A picture that cannot be drawn does not spoil a run; one that cannot be written does.
+/// Draws the final state. A picture that cannot be drawn does not fail the run; one that cannot be written does.
 fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Result<PathBuf, PictureError>, FileError> {
     let path: &Path = &job.folder.join("picture.png");
     match drawn(job.case, solver, results) {
@@ -221,7 +221,7 @@ fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> 
     Ok(())
 }
 
-/// Draws the diagrams of the run; one that cannot be drawn is left out.
+/// Draws the diagrams of the run; any that cannot be drawn are left out.
 fn draw_diagrams(job: &Job<'_>, solver: &dyn Solver) -> Result<(), FileError> {
     for diagram in solver.diagrams() {
         if let Ok(Some(svg)) = diagram::svg(&diagram) {

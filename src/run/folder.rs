@@ -1,4 +1,4 @@
-//! The folder of a run: new and empty, or that of a run to go on with.
+//! The folder of a run: new and empty, or that of a run to resume.
 
 use std::path::{Path, PathBuf};
 
@@ -8,14 +8,14 @@ use crate::io::journal;
 use crate::io::restart::{self, Saved};
 use crate::io::{FileError, atomic, frames, series};
 
-/// The folder of a new run that was given no name of its own: `base`, or where that is in use `base-2`, `base-3`, ...
+/// The default folder of a new run: `base`, or if that is in use `base-2`, `base-3`, ...
 ///
 /// An earlier run is never touched.
 pub(crate) fn next_free(base: &Path) -> PathBuf {
     numbered(base).find(|folder| is_free(folder)).unwrap_or_else(|| base.to_path_buf())
 }
 
-/// The last folder that [`next_free`] gave away, to go on with; `base` where there is none.
+/// The last folder that [`next_free`] returned, to resume; `base` if there is none.
 pub(crate) fn last_used(base: &Path) -> PathBuf {
     numbered(base).take_while(|folder| !is_free(folder)).last().unwrap_or_else(|| base.to_path_buf())
 }
@@ -31,7 +31,7 @@ fn numbered(base: &Path) -> impl Iterator<Item = PathBuf> {
     std::iter::once(base.to_path_buf()).chain((2..).map(next))
 }
 
-/// Whether there is nothing at `folder`, or an empty folder.
+/// Whether `folder` does not exist or is an empty folder.
 fn is_free(folder: &Path) -> bool {
     match std::fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_none(),
@@ -39,10 +39,10 @@ fn is_free(folder: &Path) -> bool {
     }
 }
 
-/// Makes the folder of a new run, and takes the right to work in it.
+/// Creates the folder of a new run, with exclusive access.
 ///
 /// # Errors
-/// [`FolderError::InUse`] and [`FolderError::NotEmpty`] where there is something in it, [`FolderError::File`].
+/// [`FolderError::InUse`] and [`FolderError::NotEmpty`] if there is something in it, [`FolderError::File`].
 pub(crate) fn create(folder: &Path) -> Result<Claim, FolderError> {
     atomic::make_folder(folder)?;
     let mut entries = std::fs::read_dir(folder).map_err(FileError::read(folder))?;
@@ -54,7 +54,7 @@ pub(crate) fn create(folder: &Path) -> Result<Claim, FolderError> {
     claim::claim(folder)
 }
 
-/// Takes the right to work in `folder`, in which there is a saved state of `run`, the folder itself or one within it.
+/// Acquires exclusive access to `folder`, in which there is a saved state of `run`, the folder itself or one within it.
 ///
 /// # Errors
 /// [`FolderError::InUse`], [`FolderError::NothingToResume`], [`FolderError::File`].
@@ -67,11 +67,11 @@ pub(crate) fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
     claim::claim(folder)
 }
 
-/// The saved state of the run in `folder`, after a check that all files that belong to it are there as they were written, and the right to work
-/// there; what a killed run left half written is removed.
+/// The saved state of the run in `folder`, after a check that all files that belong to it exist unchanged, and exclusive access; incomplete files of a killed
+/// run are removed.
 ///
 /// # Errors
-/// [`FolderError`] where there is none, where another process works at it, where it is damaged, or where it belongs to another case.
+/// [`FolderError`] if there is none, if another process works in it, if it is damaged, or if it belongs to another case.
 pub(crate) fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), FolderError> {
     let claim = take_up(folder, folder)?;
     let saved = restart::load(folder)?;
@@ -83,7 +83,7 @@ pub(crate) fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), Fo
     Ok((saved, claim))
 }
 
-/// Checks what was written before the saved state and cannot be made again from it.
+/// Checks the files that were written before the saved state and cannot be rebuilt from it.
 fn check(folder: &Path, saved: &Saved) -> Result<(), FileError> {
     journal::read(&series::path(folder), saved.series)?;
     frames::check(folder, &frames::read(folder, saved.frames)?)

@@ -1,4 +1,4 @@
-//! What is wrong with a folder that a run cannot use.
+//! Why a folder cannot be used by a run.
 
 use std::path::PathBuf;
 
@@ -41,10 +41,10 @@ pub enum FolderError {
     InUse {
         /// The folder.
         folder: PathBuf,
-        /// Who, where that is known.
+        /// Who, if known.
         by: String,
     },
-    /// A file of the run in it is not what the saved state asks for.
+    /// A file of the run in it does not match the saved state.
     #[error(
         "the run cannot be resumed: {error}; put the file back from a copy, or start the run again with another --out DIR"
     )]

@@ -1,4 +1,4 @@
-//! A run that writes nothing: its series and its report stay in memory, and its last state in its solver.
+//! A run without files: its series and its report stay in memory, and its final state in its solver.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -12,11 +12,11 @@ use crate::case::Case;
 use crate::io::FileError;
 use crate::solver::{Series, Solver};
 
-/// Runs a case with its solver, which stands at time zero, to the same bits as [`execute`](super::execute::execute) does. `resolved` is the case file with
-/// all that was filled in; `interrupt` stops the run after the present step.
+/// Runs a case with its solver, which is at time zero, to the same bits as [`execute`](super::execute::execute) does. `resolved` is the case file with all
+/// defaults filled in; `interrupt` stops the run after the present step.
 ///
 /// # Errors
-/// [`FileError`] of the watcher. A solver that fails, an interrupt or a missed expectation are no errors here: the report says so.
+/// [`FileError`] of the watcher. A failing solver, an interrupt or a missed expectation are not errors here: the report states them.
 pub fn run_in_memory(
     case: &Case,
     resolved: &str,
@@ -29,8 +29,8 @@ pub fn run_in_memory(
     let schedule = Schedule::new(&case.output, case.end);
     let mut simulation =
         Simulation { solver, schedule, steady: case.steady, records: &mut records, interrupt, watcher };
-    let begun = simulation.begin();
-    let ended = begun.and_then(|()| simulation.run());
+    let started = simulation.begin();
+    let ended = started.and_then(|()| simulation.run());
     let mut report = report(case, resolved, solver, &records, &ended);
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     ended?;

@@ -1,5 +1,5 @@
-//! A solver with a known solution, for tests of the run: particles on circles, stepped by a turn that rounds differently
-//! for different time steps, so that a run which stops elsewhere or loses a bit of its state is found out.
+//! A solver with a known solution, for tests of the run: particles on circles, stepped by a rotation that rounds differently for different time steps, so that
+//! a run which stops at other times or loses a bit of its state is detected.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,7 +17,7 @@ use crate::solver::{
 
 /// Angular speed in rad/s.
 const TURN: f64 = 2.0;
-/// Time step in s, no divisor of the records' intervals.
+/// Time step in s, not a divisor of the record intervals.
 const STEP: f64 = 0.0234;
 
 /// Particles on circles about the origin.
@@ -103,7 +103,7 @@ impl Solver for MockSolver {
         ]
     }
 
-    /// The speed of the circles is the same for ever.
+    /// The speed on the circles is constant.
     fn watched(&self) -> Vec<Watched> {
         let speed = "max_speed_m_per_s";
         vec![Watched { column: speed, kind: Quantity::Energy { speed, capillary_speed: None } }]
@@ -152,7 +152,7 @@ impl Watcher for Interrupter<'_> {
     }
 }
 
-/// A case of one second with 11 rows, 6 VTK records and 3 saved states after time zero; what it says of SPH is not used.
+/// A case of one second with 11 rows, 6 VTK records and 3 saved states after time zero; its SPH settings are not used.
 pub(crate) fn case() -> Case {
     let wetting = Fluid { density: 1000.0, viscosity: 1.0e-3 };
     let sph = Sph {

@@ -1,8 +1,8 @@
 //! A run: from a solver and a checked case to a folder of results.
 //!
-//! [`execute`](execute::execute) prepares the [`folder`], then the [`simulation`] loop steps the solver to the stops of the
-//! [`schedule`] and hands [`sink`]s what is due, and the [`report`] says at the end what came out. [`setup`] is the one
-//! place that knows both a case and a solver. Nothing here prints: a [`Watcher`](simulation::Watcher) is told of each step.
+//! [`execute`](execute::execute) prepares the [`folder`], then the [`simulation`] loop steps the solver to the stops of the [`schedule`] and passes records
+//! that are due to [`sink`]s; at the end the [`report`] gives the results. Only [`setup`] depends on both the case and the solvers. Nothing here prints: a
+//! [`Watcher`](simulation::Watcher) is notified of each step.
 
 pub(crate) mod advice;
 pub(crate) mod avalanche;

@@ -1,9 +1,8 @@
-//! The dimensionless numbers of a case and the limits of its time step, by formulas that are stated with them.
+//! The dimensionless numbers of a case and the limits of its time step, each with its formula.
 //!
-//! With rho, mu of the wetting phase, sigma the tension, L the length that the case names, else the shorter of the width of the narrowest
-//! throat and the square root of the area of a drop or bubble, else the shorter side of the domain, and U a speed:
-//! Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w - rho_n| g L²/sigma (rho_w alone in single-phase flow),
-//! La = sigma rho L/mu², Oh = La^(-1/2).
+//! With rho, mu of the wetting phase, sigma the tension, L the length that the case gives, else the shorter of the width of the narrowest throat and the square
+//! root of the area of a drop or bubble, else the shorter side of the domain, and U a speed: Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w
+//! - rho_n| g L²/sigma (rho_w alone in single-phase flow), La = sigma rho L/mu², Oh = La^(-1/2).
 
 use serde::Serialize;
 
@@ -19,21 +18,21 @@ pub struct Number {
     pub symbol: &'static str,
     /// Its value.
     pub value: f64,
-    /// How it is formed.
+    /// Its formula.
     pub formula: &'static str,
 }
 
-/// The length L of the numbers.
+/// The characteristic length L.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Length {
     /// In m.
     pub value: f64,
-    /// What it is the length of.
+    /// Its meaning.
     pub name: &'static str,
 }
 
 impl Length {
-    /// The length that the physics of a case has: see the head of this file.
+    /// The characteristic length of a case: see the head of this file.
     pub(crate) fn of(case: &Case) -> Self {
         if let Model::Sph(sph) = &case.model
             && let Some(value) = sph.reference_length
@@ -51,7 +50,7 @@ impl Length {
     }
 }
 
-/// A speed to expect, in m/s, with its formula: what is known before a run.
+/// An estimated speed in m/s, with its formula, from what is known before a run.
 pub(crate) fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
     let sph = match &case.model {
         Model::Sph(sph) => sph,
@@ -72,13 +71,13 @@ pub(crate) fn expected_speed(case: &Case, length: Length) -> (f64, &'static str)
     } else if sph.acting_tension() > 0.0 {
         ((sph.tension / (rho * l)).sqrt(), "sqrt(sigma / rho L)")
     } else {
-        // In the middle of a gap of width L; a body force cannot make more of the fall through L than free fall.
+        // At the center of a gap of width L; a body force cannot accelerate more than free fall through L.
         let (viscous, free) = (rho * g * l * l / (8.0 * mu), (2.0 * g * l).sqrt());
         if viscous < free { (viscous, "rho g L^2 / 8 mu") } else { (free, "sqrt(2 g L)") }
     }
 }
 
-/// The mean speeds in m/s that are given at open sides.
+/// The mean speeds in m/s prescribed at open sides.
 fn given_speeds<'a>(case: &Case, sph: &'a Sph) -> impl Iterator<Item = f64> + use<'a> {
     let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
     let given = sph.open.iter().enumerate().filter_map(|(number, open)| Some((number, open.as_ref()?.drive)));
@@ -115,8 +114,7 @@ pub(crate) fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     all
 }
 
-/// Speed of a contact line by the steepest droplet, without the logarithm of lengths, in m/s: an upper bound by an order of
-/// magnitude.
+/// Contact line speed of the steepest droplet, without the logarithm of lengths, in m/s: an upper bound by an order of magnitude.
 fn spreading_speed(film: &ThinFilm) -> f64 {
     let slope = film.droplets.iter().map(|droplet| droplet.height / droplet.half_width).fold(0.0, f64::max);
     film.tension * slope.powi(3) / (3.0 * film.viscosity)

@@ -1,4 +1,4 @@
-//! The capillary pressure curves of several runs of networks in one diagram, read from the files that they left.
+//! The capillary pressure curves of several network runs in one diagram, read from their files.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use crate::io::diagram::{DiagramError, svg};
 pub(crate) const NAME: &str = "capillary-pressure";
 /// With films, the curve at every pressure.
 const CURVE: &str = "capillary_pressure.csv";
-/// Else saturations change at events alone.
+/// Otherwise saturations change only at events.
 const EVENTS: &str = "events.csv";
 
-/// Where a curve goes: the half cycle, the saturation of the wetting phase and p_n - p_w in Pa; no pressure at the beginning of a half cycle.
+/// A point of a curve: the half cycle, the wetting saturation and p_n - p_w in Pa; no pressure at the start of a half cycle.
 #[derive(Debug, Clone, Copy, serde::Deserialize)]
 struct Row {
     half_cycle: usize,
@@ -21,7 +21,7 @@ struct Row {
     pressure: Option<f64>,
 }
 
-/// The curves of the runs in these folders, each with its name, as SVG; none where no run has one.
+/// The named curves of the runs in these folders, as SVG; `None` if no run has one.
 pub(crate) fn overlay(runs: &[(String, &Path)]) -> Result<Option<String>, DiagramError> {
     let trace = |(name, folder): &(String, &Path)| {
         Some(Trace { name: name.clone(), stroke: Stroke::Full, points: curve(folder)? })
@@ -59,7 +59,7 @@ fn staircase(rows: &[Row]) -> Vec<[f64; 2]> {
     let mut before: Option<Row> = None;
     for row in rows {
         if let Some(pressure) = row.pressure {
-            // After a turn, what is open at the inlet fills at the first pressure.
+            // After a reversal, what is open at the inlet fills at the first pressure.
             let turned = before.filter(|before| before.pressure.is_none() && before.half_cycle > 1);
             let end = points.last().copied().filter(|_| turned.is_some());
             points.extend(end.map(|end| [end[0], pressure]));

@@ -1,7 +1,6 @@
-//! Processor time of a run, over all the processes that worked at it and all their threads.
+//! Processor time of a run, over all its processes and all their threads.
 //!
-//! It is kept beside the saved state and taken up with it. What a killed process did after it last saved its state is not
-//! in it: that is done again, and counted then.
+//! It is saved and restored with the state. What a killed process did after it last saved its state is not included: that is repeated, and counted then.
 
 use std::path::{Path, PathBuf};
 
@@ -10,16 +9,16 @@ use cpu_time::ProcessTime;
 use crate::io::checksum::fnv1a;
 use crate::io::{FileError, atomic};
 
-/// Counts the processor time of this process since it began with a run, and knows that of the processes before.
+/// Measures the processor time of this process since it started on a run, and has that of earlier processes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ProcessorTime {
-    /// In s; none where an earlier process did not tell.
+    /// In s; `None` if an earlier process did not report it.
     before: Option<f64>,
-    /// None where the system does not tell.
+    /// `None` if the system does not report it.
     begun: Option<ProcessTime>,
 }
 
-/// The file that keeps it, in s as text, with a checksum of the text: a wrong number would be worse than none.
+/// Its file, in s as text, with a checksum of the text: a wrong number would be worse than none.
 fn file(folder: &Path) -> PathBuf {
     folder.join("restart").join("cpu-s")
 }
@@ -30,23 +29,23 @@ impl ProcessorTime {
         Self { before: Some(0.0), begun: ProcessTime::try_now().ok() }
     }
 
-    /// With what the processes before this one took until they saved the state in `folder`.
+    /// With the time of earlier processes until they saved the state in `folder`.
     pub(crate) fn after_that_in(self, folder: &Path) -> Self {
-        let told = std::fs::read_to_string(file(folder)).ok();
-        let before = told.and_then(|text| {
+        let saved = std::fs::read_to_string(file(folder)).ok();
+        let before = saved.and_then(|text| {
             let (seconds, checksum) = text.trim().split_once(' ')?;
             (checksum == checksum_of(seconds)).then_some(seconds)?.parse().ok()
         });
         Self { before, ..self }
     }
 
-    /// In s until now; none where a process did not tell its part.
+    /// In s until now; `None` if the part of a process is not known.
     pub(crate) fn seconds(&self) -> Option<f64> {
         Some(self.before? + self.begun?.try_elapsed().ok()?.as_secs_f64())
     }
 }
 
-/// Keeps `seconds` of processor time for the process that goes on with the run in `folder`.
+/// Saves `seconds` of processor time for the process that resumes the run in `folder`.
 pub(crate) fn save(folder: &Path, seconds: Option<f64>) -> Result<(), FileError> {
     let text = seconds.map_or("unknown".to_owned(), |seconds| seconds.to_string());
     let text = format!("{text} {}\n", checksum_of(&text));
@@ -78,7 +77,7 @@ mod tests {
         save(folder.path(), Some(saved)).unwrap();
         let second = ProcessorTime::start().after_that_in(folder.path());
         work(0.02);
-        // Other tests of this process may work at the same time: there is no upper bound.
+        // Other tests of this process may run concurrently: there is no upper bound.
         assert!(saved >= 0.02 && second.seconds().unwrap() >= 0.04, "{saved} {second:?}");
     }
 

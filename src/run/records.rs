@@ -1,4 +1,4 @@
-//! What a run records while it goes on: the series, and where it has a folder VTK files and saved states.
+//! Records of a run: the series, and if it has a folder, VTK files and saved states.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -14,7 +14,7 @@ use crate::io::vtk::Compression;
 use crate::io::{FileError, atomic, pvd, vtk};
 use crate::solver::{PartTime, Series, Solver};
 
-/// The records of a run, and the wall time they take.
+/// The records of a run, and their wall time.
 #[derive(Default)]
 pub(crate) struct Records {
     series: SeriesSink,
@@ -22,7 +22,7 @@ pub(crate) struct Records {
     seconds: [f64; 3],
 }
 
-/// Where the files of a run go, and what they need.
+/// Where the files of a run are written, and what they need.
 struct Files {
     folder: PathBuf,
     writer: Writer,
@@ -35,7 +35,7 @@ impl Records {
     /// The records of a run in `folder`, which exists; those of a run without files are [`Records::default`].
     ///
     /// # Errors
-    /// [`FileError`] where files of a resumed run cannot be read.
+    /// [`FileError`] if files of a resumed run cannot be read.
     pub(crate) fn new(
         folder: &Path,
         case_hash: u64,
@@ -59,12 +59,12 @@ impl Records {
         self.series.series()
     }
 
-    /// The rows of the series, of which no more will come.
+    /// The rows of the series, after the last one.
     pub(crate) fn into_series(self) -> Series {
         self.series.into_series()
     }
 
-    /// Processor time in s of all processes that worked at the run; none where one did not tell, or without files.
+    /// Processor time in s of all processes of the run; `None` if one is not known, or without files.
     pub(crate) fn processor_time(&self) -> Option<f64> {
         self.files.as_ref().and_then(|files| files.processor_time.seconds())
     }
@@ -72,7 +72,7 @@ impl Records {
     /// Waits until all records are written.
     ///
     /// # Errors
-    /// [`FileError`] where one could not be written.
+    /// [`FileError`] if one could not be written.
     pub(crate) fn finish(&mut self) -> Result<(), FileError> {
         self.files.as_mut().map_or(Ok(()), |files| files.writer.finish())
     }
@@ -97,8 +97,8 @@ impl Records {
         self.files.as_ref().map_or(Ok(()), |files| write_units(&files.folder, &Frame::of(solver)))
     }
 
-    /// Records what is due. The saved state comes last: it never runs ahead of the other files. Files other than the series are written while the
-    /// solver goes on.
+    /// Writes the records that are due. The saved state comes last: it is never ahead of the other files. Files other than the series are written while the
+    /// solver continues.
     pub(crate) fn record(&mut self, solver: &dyn Solver, due: Due) -> Result<(), FileError> {
         let mut clock = Instant::now();
         let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();

@@ -1,4 +1,4 @@
-//! `report.json`: how a run ended and what came out of it. A value that does not exist (NaN) is `null`.
+//! `report.json`: how a run ended and its results. A value that does not exist (NaN) is `null`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,17 +19,17 @@ pub(crate) const REPORT: &str = "report.json";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It reached the end, and all that was expected came out.
+    /// It reached the end, and all expectations are met.
     Done,
     /// It was stopped by the user and can be resumed.
     Interrupted,
     /// The solver failed, or a file could not be written.
     Failed,
-    /// It reached the end, but a measure is not what was expected.
+    /// It reached the end, but a measure does not meet its expectation.
     ExpectationFailed,
 }
 
-/// The machine that a run ran on.
+/// The machine of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Machine {
     /// Number of cores that the system offers.
@@ -55,15 +55,15 @@ impl Machine {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Reading {
-    /// Value in `unit`; absent where it could not be measured.
+    /// Value in `unit`; `None` if it could not be measured.
     pub value: Option<f64>,
-    /// Unit, empty for pure numbers.
+    /// Unit, empty if dimensionless.
     pub unit: String,
-    /// One standard uncertainty in `unit`, where one is known.
+    /// One standard uncertainty in `unit`, if known.
     pub uncertainty: Option<f64>,
     /// How it was measured.
     pub method: String,
-    /// How it still moves, where that is by more than the uncertainty of its value at one time.
+    /// How it still moves, if by more than the uncertainty of its value at one time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_at_rest: Option<Motion>,
 }
@@ -77,7 +77,7 @@ pub struct Motion {
     pub unit: String,
 }
 
-/// An expectation and what came out.
+/// An expectation and its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Name of the measure.
@@ -86,9 +86,9 @@ pub struct Verdict {
     pub value: f64,
     /// Largest accepted deviation, same unit.
     pub tolerance: f64,
-    /// What was measured; absent where it could not be.
+    /// Measured value; `None` if it could not be measured.
     pub measured: Option<f64>,
-    /// Whether it is within the tolerance; absent where the run did not reach its end.
+    /// Whether it is within the tolerance; `None` if the run did not reach its end.
     pub pass: Option<bool>,
 }
 
@@ -101,13 +101,13 @@ pub struct WallTime {
     pub parts: BTreeMap<&'static str, f64>,
 }
 
-/// Where a run stands on its clock.
+/// Progress of a run on its clock.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reached {
-    /// What is counted.
+    /// The clock.
     #[serde(flatten)]
     pub clock: Clock,
-    /// How far it went, in the unit of the clock.
+    /// Its value, in the unit of the clock.
     pub value: f64,
 }
 
@@ -119,44 +119,43 @@ pub struct Report {
     pub version: &'static str,
     /// How the run ended.
     pub status: Status,
-    /// What went wrong, where something did.
+    /// What went wrong, if anything.
     pub error: Option<String>,
     /// Time reached in s; absent where the run goes along something else.
     pub time_s: Option<f64>,
-    /// What the run went along, and how far.
+    /// The clock of the run, and how far it went.
     pub clock: Reached,
     /// Steps since time zero.
     pub steps: u64,
-    /// Whether the run was steady, and what still changed; absent where the case does not ask.
+    /// Whether the run was steady, and what still changed; `None` if the case does not require it.
     pub steady: Option<Steadiness>,
     /// The final measures by name.
     pub measures: BTreeMap<String, Reading>,
     /// Expectations of the case.
     pub expectations: Vec<Verdict>,
-    /// Dimensionless numbers at the fastest speed that was recorded, by symbol.
+    /// Dimensionless numbers at the highest recorded speed, by symbol.
     pub numbers: Vec<Number>,
-    /// The length L in them.
+    /// Their characteristic length L.
     pub length_of_numbers: Length,
-    /// What pressures, volumes and rates are those of; absent for a film on a wall.
+    /// The dimension of pressures, volumes and rates; `None` for a film on a wall.
     pub depth: Option<String>,
-    /// The case, every value present, in SI units.
+    /// The case with all values, in SI units.
     pub case: Case,
-    /// The case file with all that was filled in, as TOML.
+    /// The case file with all defaults filled in, as TOML.
     pub resolved_case: String,
     /// The machine.
     pub machine: Machine,
     /// Wall time in s.
     pub wall_time_s: WallTime,
-    /// Processor time in s of all processes that worked at the run, but for steps that a kill undid; absent where it is
-    /// not known.
+    /// Processor time in s of all processes of the run, except for steps that a kill undid; `None` if it is not known.
     pub cpu_s: Option<f64>,
     /// What a reader must know before trusting the measures.
     pub warnings: Vec<String>,
-    /// Unknowns, steps and counts of the solver, of this process.
+    /// Unknowns, steps and counters of the solver, of this process.
     pub solver: SolverReport,
 }
 
-/// What the solver tells of its work.
+/// Statistics of the solver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SolverReport {
     /// Number of unknowns.
@@ -166,7 +165,7 @@ pub struct SolverReport {
     /// Wall time of the solver's own parts in s, without output.
     #[serde(rename = "wall-time-s")]
     pub wall_time_s: f64,
-    /// Further counts by name.
+    /// Further counters by name.
     pub counts: BTreeMap<&'static str, f64>,
 }
 
@@ -181,15 +180,15 @@ impl From<&Statistics> for SolverReport {
     }
 }
 
-/// Wall time by part, as the report holds it.
+/// Wall time by part, as in the report.
 pub(crate) fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime {
     WallTime { total, parts: parts.map(|part| (part.part, part.seconds)).collect() }
 }
 
-/// Measures by name. Those that stand in the `series` too, as one of the `watched` quantities or as a column that they move with, are as
-/// uncertain as these still move.
+/// Measures by name. The uncertainty of those that are also in the `series`, as one of the `watched` quantities or through a column that they follow, includes
+/// their remaining drift.
 pub(crate) fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) -> BTreeMap<String, Reading> {
-    // Adding zero turns minus zero, which means nothing to people, into zero.
+    // Adding zero turns minus zero into zero.
     let finite = |value: f64| value.is_finite().then_some(value + 0.0);
     measures
         .into_iter()
@@ -214,14 +213,14 @@ pub(crate) fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watch
         .collect()
 }
 
-/// The measure that tells when a run was steady.
+/// The measure of the time at which a run became steady.
 pub const STEADY_AT: &str = "steady-at-s";
 
-/// When the run was steady, as a measure with its name.
+/// The time at which the run became steady, as a measure with its name.
 pub(crate) fn steady_reading(steady: &Steadiness) -> (String, Reading) {
     let method = match (steady.at_s, steady.quantities.is_empty()) {
         (Some(_), _) => format!("first record that ends three windows of {:.3e} s without a change", steady.window_s),
-        (None, true) => "the run was too short to tell: a window holds too few records".to_owned(),
+        (None, true) => "the run was too short to decide: a window has too few records".to_owned(),
         (None, false) => format!("not steady by the end: {}", steady.unsettled()),
     };
     (
@@ -230,7 +229,7 @@ pub(crate) fn steady_reading(steady: &Steadiness) -> (String, Reading) {
     )
 }
 
-/// Each expectation beside what was measured; a measure that is missing or NaN misses.
+/// Each expectation with its measured value; a missing or NaN measure does not meet it.
 pub(crate) fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String, Reading>) -> Vec<Verdict> {
     expectations
         .iter()
@@ -248,14 +247,14 @@ pub(crate) fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String,
         .collect()
 }
 
-/// Whether a folder holds the report of a run that reached its end.
+/// Whether a folder has the report of a run that reached its end.
 pub(crate) fn is_of_the_end(folder: &Path) -> bool {
     #[derive(Deserialize)]
-    struct Told {
+    struct Ending {
         status: Status,
     }
-    let told = std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
-    told.is_some_and(|told: Told| matches!(told.status, Status::Done | Status::ExpectationFailed))
+    let ending = std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    ending.is_some_and(|ending: Ending| matches!(ending.status, Status::Done | Status::ExpectationFailed))
 }
 
 impl Report {

@@ -1,14 +1,14 @@
-//! When to record what: the stops of a run in s, each a whole multiple of its interval, and the end.
+//! Times of the records: the stops of a run in s, each an integer multiple of its interval, and the end.
 //!
-//! Times come from a multiplication, never from a sum, and depend on the present time only, so that a resumed run stops at
-//! the same times as an unbroken one. Stops that differ by rounding only are one stop.
+//! Times come from a multiplication, never from a sum, and depend on the present time only, so that a resumed run stops at the same times as an uninterrupted
+//! one. Stops that differ only by rounding are one stop.
 
 use crate::case::Output;
 
-/// Times closer than this share of the shortest interval are one: far above rounding, far below a time step.
+/// Times closer than this fraction of the shortest interval are one: far above rounding, far below a time step.
 const SAME: f64 = 1.0e-9;
 
-/// What is to be recorded at a stop.
+/// The records due at a stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Due {
     /// A row of the series.
@@ -20,20 +20,20 @@ pub(crate) struct Due {
 }
 
 impl Due {
-    /// Everything, as at the beginning and at the end.
+    /// All, as at the start and at the end.
     pub(crate) const ALL: Self = Self { series: true, vtk: true, restart: true };
-    /// What is left of a run that failed: the last good state to look at and to start from.
+    /// The records of a failed run: the last valid state to look at and to start from.
     pub(crate) const LAST_GOOD_STATE: Self = Self { series: false, vtk: true, restart: true };
-    /// What an interrupted run needs to go on.
+    /// The record that an interrupted run needs to be resumed.
     pub(crate) const TO_RESUME: Self = Self { series: false, vtk: false, restart: true };
 }
 
-/// A time that the solver must land on.
+/// A time that the solver must meet exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stop {
     /// Time in s.
     pub time: f64,
-    /// What is to be recorded then.
+    /// The records due then.
     pub due: Due,
 }
 
@@ -57,7 +57,7 @@ impl Schedule {
         self.end
     }
 
-    /// The first stop after `time` in s; none where the run is over. At the end everything is due.
+    /// The first stop after `time` in s; `None` if the run is over. At the end everything is due.
     pub(crate) fn next_after(&self, time: f64) -> Option<Stop> {
         if time >= self.end {
             return None;
@@ -77,7 +77,7 @@ impl Schedule {
         if !(every > 0.0 && every < self.end) {
             return self.end;
         }
-        // The quotient may round across a whole number: start one below and look.
+        // The quotient may round up to the next integer: start one below and test.
         let below = (time / every).floor() - 1.0;
         (0..=3)
             .map(|i| multiple(below + f64::from(i), every))
@@ -87,9 +87,9 @@ impl Schedule {
     }
 }
 
-/// `count` times `every` without the rounding of the product, which would stand in every file: 4.5e-6 for 4.499999999999999e-6.
+/// `count` times `every` without the rounding error of the product, which would show in every file: 4.5e-6 for 4.499999999999999e-6.
 fn multiple(count: f64, every: f64) -> f64 {
-    // One digit less than a product is good for.
+    // One digit less than the accuracy of a product.
     let product = count * every;
     format!("{product:.13e}").parse().unwrap_or(product)
 }

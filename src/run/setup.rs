@@ -1,4 +1,4 @@
-//! From a checked case to its solver: the one place that knows both.
+//! From a checked case to its solver: the only module that depends on both.
 
 use super::memory::{self, NoRoom};
 use crate::case::{Case, Facts, Model, Side, Sph, check_against};
@@ -9,7 +9,7 @@ use crate::math::{Bounds, Vec2};
 use crate::solver::{Series, Solver};
 use crate::{benchmarks, network, sph, thin_film};
 
-/// A case that no solver can be made for.
+/// Why no solver can be made for a case.
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
     /// The direct simulation cannot be set up.
@@ -21,7 +21,7 @@ pub enum SetupError {
     /// The network cannot be set up.
     #[error("{0}")]
     Network(#[from] network::setup::SetupError),
-    /// The direct simulation needs more memory than there is.
+    /// The direct simulation needs more memory than available.
     #[error("{0}")]
     Memory(#[from] NoRoom),
 }
@@ -46,7 +46,7 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     build_watched(case, &mut |_| {})
 }
 
-/// The solver of a case, in its initial state; `packed` is told the share of the packing of particles that is done, where there is one.
+/// The solver of a case, in its initial state; `packed` receives the progress of the packing of particles, if there is one.
 pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
@@ -59,7 +59,7 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
     }
 }
 
-/// The solver of a case that takes up a saved state before anything else: particles stand where they are put first, unpacked.
+/// The solver of a case that is about to restore a saved state: the particles are not packed.
 pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
@@ -71,12 +71,12 @@ pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     }
 }
 
-/// Whether there is memory for the particles of a case, as far as the system tells.
+/// Whether there is memory for the particles of a case, as far as the system reports it.
 fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
     let Some(available) = memory::available() else { return Ok(()) };
     let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
     let area = size.x * size.y;
-    // The pore is measured where the domain would not fit.
+    // The pore is measured only if the whole domain would not fit.
     if memory::holds(area, sph.spacing, available).is_err() {
         let porosity = sph::setup::geometry(case, sph)?.porosity().value;
         memory::holds(porosity * area, sph.spacing, available)?;
@@ -84,7 +84,7 @@ fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
     Ok(())
 }
 
-/// What is wrong with a case on its real geometry: throats that are not resolved, phases inside the solid, open sides without an opening.
+/// What is wrong with a case for its actual geometry: unresolved throats, phases inside the solid, open sides without an opening.
 pub fn problems(case: &Case) -> Vec<Problem> {
     let Model::Sph(sph) = &case.model else { return Vec::new() };
     let geometry = match sph::setup::checked_geometry(case, sph) {
@@ -101,10 +101,10 @@ pub fn problems(case: &Case) -> Vec<Problem> {
     check_against(case, &facts)
 }
 
-/// The geometry of a case with its sides, as its solver sees it; a thin film has the shapes of its case alone.
+/// The geometry of a case with its sides, as in its solver; a thin film has only the shapes of its case.
 ///
 /// # Errors
-/// [`SetupError`] where the shapes are not usable.
+/// [`SetupError`] if the shapes are not usable.
 pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
     match &case.model {
         Model::Sph(sph) => Ok(sph::setup::geometry(case, sph)?),
@@ -113,7 +113,7 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
     }
 }
 
-/// The domain of a case and what its sides are, for pictures; none of a film on a wall.
+/// The domain of a case and its sides, for pictures; `None` for a film on a wall.
 pub(super) fn frame(case: &Case) -> Option<Frame> {
     let sides = case.model.sides()?.each();
     let through = |side: Side| match side {
@@ -128,7 +128,7 @@ pub(super) fn frame(case: &Case) -> Option<Frame> {
     })
 }
 
-/// What a reader must know before trusting a run of the case, by the case and by the present state of its solver with the rows so far.
+/// What a reader must know before trusting a run of the case, from the case and from the present state of its solver with the rows so far.
 pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String> {
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
@@ -142,13 +142,13 @@ pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String
     of_case.into_iter().chain(solver.warnings(series)).collect()
 }
 
-/// Spacings across a throat below which its menisci and their angles are off by degrees.
+/// Spacings across a throat below which its menisci and their angles have errors of several degrees.
 const ACROSS_THROAT: f64 = 8.0;
 
-/// What of a state that a case begins with will not rest.
+/// Parts of the initial state that are not at rest.
 fn not_at_rest(sph: &Sph) -> Vec<String> {
     let Some(start) = sph.initial.network.as_ref().filter(|_| sph.acting_tension() > 0.0) else { return Vec::new() };
-    /// Angles in degrees that differ by less are the same, written and read.
+    /// Angles in degrees that differ by less are equal up to rounding in a file.
     const SAME: f64 = 1e-6;
     let mut found = Vec::new();
     let angles = sph.wetting_model.map(|model| model.hysteresis_range().map(f64::to_degrees));
@@ -170,11 +170,11 @@ fn not_at_rest(sph: &Sph) -> Vec<String> {
     found
 }
 
-/// A throat with an interface to pass it that has few particles across.
+/// A throat that an interface must pass with few particles across.
 fn coarse_throat(case: &Case, sph: &Sph) -> Option<String> {
     let width = throat(case).filter(|_| sph.acting_tension() > 0.0)?;
     let across = width / sph.spacing;
-    // Less is rounding of where shapes stand.
+    // A smaller difference is rounding of the positions of shapes.
     (across < (1.0 - 1e-9) * ACROSS_THROAT).then(|| {
         format!(
             "{across:.1} particles across the narrowest throat: entry pressures hold from {ACROSS_THROAT:.0}, angles measured there from 16; \
@@ -184,11 +184,10 @@ fn coarse_throat(case: &Case, sph: &Sph) -> Option<String> {
     })
 }
 
-/// Nodes along each axis on which the fluids of the initial state are looked up.
+/// Nodes along each axis at which the fluids of the initial state are sampled.
 const NODES: usize = 160;
 
-/// Area in m² of the drop or bubble that a case starts with: of the phase with the smaller area, where that does not reach from one side of
-/// the domain to the opposite one.
+/// Area in m² of the initial drop or bubble: of the phase with the smaller area, unless it reaches from one side of the domain to the opposite one.
 pub(crate) fn drop_area(case: &Case) -> Option<f64> {
     let Model::Sph(sph) = &case.model else { return None };
     if sph.initial.wetting.is_empty() {
@@ -198,22 +197,22 @@ pub(crate) fn drop_area(case: &Case) -> Option<f64> {
     let region = sph::setup::region(case, &sph.initial.wetting);
     let (min, max) = (Vec2::from(case.geometry.min), Vec2::from(case.geometry.max));
     let cell = (max - min) / NODES as f64;
-    let mut seen = [(0, Bounds { min: max, max: min }); 2];
+    let mut found = [(0, Bounds { min: max, max: min }); 2];
     for (i, j) in (0..NODES).flat_map(|i| (0..NODES).map(move |j| (i, j))) {
         let x = min + cell.component_mul(&Vec2::new(i as f64 + 0.5, j as f64 + 0.5));
         if pore.signed_distance(x) > 0.0 {
             let is_wetting = (region.signed_distance(x) < 0.0) != sph.initial.wetting_is_background;
-            let (count, around) = &mut seen[usize::from(is_wetting)];
+            let (count, around) = &mut found[usize::from(is_wetting)];
             *count += 1;
             *around = Bounds { min: around.min.inf(&x), max: around.max.sup(&x) };
         }
     }
-    let (count, around) = if seen[0].0 < seen[1].0 { seen[0] } else { seen[1] };
+    let (count, around) = if found[0].0 < found[1].0 { found[0] } else { found[1] };
     let spans = [0, 1].map(|k| around.min[k] < min[k] + cell[k] && around.max[k] > max[k] - cell[k]);
     (count > 0 && spans == [false; 2]).then(|| count as f64 * cell.x * cell.y)
 }
 
-/// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.
+/// Width of the narrowest throat of a case in m; `None` if there is no throat, or no usable geometry.
 pub(crate) fn throat(case: &Case) -> Option<f64> {
     let Model::Sph(sph) = &case.model else { return None };
     let geometry = sph::setup::geometry(case, sph).ok()?;

@@ -14,16 +14,16 @@ use crate::solver::{Clock, Solver, SolverError, StepInfo};
 pub(crate) enum Outcome {
     /// It reached the end, or was steady before.
     Done,
-    /// It was asked to stop, and can be resumed.
+    /// It was stopped on request, and can be resumed.
     Interrupted,
-    /// The solver failed; its last good state was saved.
+    /// The solver failed; its last valid state was saved.
     Failed(SolverError),
 }
 
-/// Where a run stands after a step.
+/// The progress of a run after a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// What `time`, `end` and `dt` count.
+    /// The quantity of `time`, `end` and `dt`.
     pub clock: Clock,
     /// Time in s.
     pub time: f64,
@@ -33,26 +33,26 @@ pub struct Progress {
     pub step: u64,
     /// The last time step in s.
     pub dt: f64,
-    /// The limit that ruled it.
+    /// The limit that set it.
     pub limit: &'static str,
 }
 
 impl Progress {
-    /// Where a solver stands after a step towards the end of its run.
+    /// The progress of a solver after a step towards the end of its run.
     pub(crate) fn after(solver: &dyn Solver, step: StepInfo, end: f64) -> Self {
         Self { clock: solver.clock(), time: solver.time(), end, step: solver.steps(), dt: step.dt, limit: step.limit }
     }
 }
 
-/// Someone who is told of each step: a progress bar, say.
+/// Is notified of each step: a progress bar, say.
 pub trait Watcher {
     /// A step was done.
     fn stepped(&mut self, progress: &Progress);
 
-    /// A row of the series is about to be recorded, and after it whatever else is due: the saved state never runs ahead of this.
+    /// A row of the series is about to be recorded, followed by whatever else is due: the saved state is never ahead of this.
     ///
     /// # Errors
-    /// [`FileError`] where something cannot be written.
+    /// [`FileError`] if something cannot be written.
     fn recorded(&mut self, _: &dyn Solver) -> Result<(), FileError> {
         Ok(())
     }
@@ -61,7 +61,7 @@ pub trait Watcher {
     fn framed(&mut self, _: &dyn Solver) {}
 }
 
-/// No one.
+/// A watcher that does nothing.
 pub struct Unwatched;
 
 impl Watcher for Unwatched {
@@ -72,15 +72,15 @@ impl Watcher for Unwatched {
 pub(crate) struct Simulation<'a> {
     /// The solver.
     pub(crate) solver: &'a mut dyn Solver,
-    /// When to record.
+    /// Times of the records.
     pub(crate) schedule: Schedule,
-    /// When the run ends before its end, where it does.
+    /// Criterion for ending the run early, if any.
     pub(crate) steady: Option<SteadyStop>,
-    /// What records.
+    /// The records.
     pub(crate) records: &'a mut Records,
-    /// Set by others to stop the run after the present step.
+    /// Set from outside to stop the run after the present step.
     pub(crate) interrupt: &'a AtomicBool,
-    /// Who is told of each step.
+    /// Is notified of each step.
     pub(crate) watcher: &'a mut dyn Watcher,
 }
 
@@ -91,13 +91,13 @@ impl Simulation<'_> {
         self.record(Due::ALL)
     }
 
-    /// Writes anew what follows from the solver whatever its state: `solid.vtu` and `units.json`.
+    /// Rewrites the files that do not depend on the state: `solid.vtu` and `units.json`.
     pub(crate) fn go_on(&mut self) -> Result<(), FileError> {
         self.records.write_outline(self.solver)?;
         self.records.write_units(self.solver)
     }
 
-    /// Whether the run ends here as it is steady: as its last row tells.
+    /// Whether the run ends here because it is steady, from its last row.
     fn ends_steady(&self) -> bool {
         let series = self.records.series();
         self.steady.is_some_and(|steady| steady.stop && is_steady(series, &self.solver.watched(), &steady))
@@ -118,7 +118,7 @@ impl Simulation<'_> {
         self.records.record(self.solver, due)
     }
 
-    /// Records what is due at a stop, row first, and everything where the run is steady by then.
+    /// Records what is due at a stop, the row first, and everything if the run is steady by then.
     fn record_stop(&mut self, due: Due) -> Result<bool, FileError> {
         self.record(Due { vtk: false, restart: false, ..due })?;
         let is_steady = due.series && self.ends_steady();
@@ -130,7 +130,7 @@ impl Simulation<'_> {
     /// Runs to the end, to steady state, to an interrupt or to an error of the solver; in the last two cases a state is saved.
     ///
     /// # Errors
-    /// [`FileError`] where a record cannot be written.
+    /// [`FileError`] if a record cannot be written.
     pub(crate) fn run(&mut self) -> Result<Outcome, FileError> {
         if self.is_at_end() {
             return Ok(Outcome::Done);

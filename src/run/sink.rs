@@ -1,4 +1,4 @@
-//! Sinks: what is written at a stop. Those of VTK files see a [`Frame`], a copy of what they need of the solver.
+//! Sinks: what is written at a stop. Those of VTK files get a [`Frame`], a copy of the required data of the solver.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,9 +13,9 @@ use crate::io::{FileError, atomic};
 use crate::snapshot::{Layer, Snapshot};
 use crate::solver::{Series, Solver};
 
-/// What the VTK files need of the solver between two steps, without the solver: it goes on while they are written.
+/// The data of the solver for VTK files, copied so that the solver can continue while they are written.
 pub(crate) struct Frame {
-    /// Where the run stands, in s.
+    /// Time in s.
     time: f64,
     snapshot: Snapshot<'static>,
     layers: Vec<Layer<'static>>,
@@ -29,12 +29,12 @@ impl Frame {
     }
 }
 
-/// Where a run's files begin.
+/// Initial state of a run's files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Start {
-    /// With a new folder.
+    /// A new folder.
     New,
-    /// With what stands in the folder before these marks.
+    /// The files in the folder up to these marks.
     Resumed {
         /// In `series.csv`.
         series: Mark,
@@ -43,7 +43,7 @@ pub(crate) enum Start {
     },
 }
 
-/// What the case says of compression, as the writer of VTK files has it.
+/// The compression setting of the case for the writer of VTK files.
 pub(crate) fn compression(output: &Output) -> Compression {
     match output.vtk_compression {
         case::Compression::None => Compression::None,
@@ -52,7 +52,7 @@ pub(crate) fn compression(output: &Output) -> Compression {
     }
 }
 
-/// The VTK files of a run: a series each of particles, grid and interface, where the solver has them, and of its layers.
+/// The VTK files of a run: one series each of particles, grid and interface, if the solver has them, and of its layers.
 pub(crate) struct VtkFiles {
     folder: PathBuf,
     written: Vec<Written>,
@@ -61,20 +61,20 @@ pub(crate) struct VtkFiles {
 }
 
 impl VtkFiles {
-    /// Those in the folder of a run, in which these were `written` before.
+    /// Those in the folder of a run, of which these were `written` before.
     pub(crate) fn new(folder: &Path, written: Vec<Written>, compression: Compression) -> Self {
         Self { folder: folder.to_path_buf(), written, compression, series: BTreeMap::new() }
     }
 
-    /// Records a frame and notes in `frames` what was written. A time that was recorded before is replaced, never doubled.
+    /// Records a frame and lists the written files in `frames`. An earlier record of the same time is replaced, never duplicated.
     ///
     /// # Errors
-    /// [`FileError`] with the path and a way out.
+    /// [`FileError`] with the path and a remedy.
     pub(crate) fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
         write_units(&self.folder, frame)?;
         let Snapshot { time, particles, grid, interface, .. } = &frame.snapshot;
         let (time, compression) = (*time, self.compression);
-        // A solver without particles has no fields of them either.
+        // A solver without particles has no particle fields either.
         if !(particles.fields.is_empty() && particles.points.is_empty()) {
             self.write("particles", time, vtk::points(particles, compression), frames)?;
         }
@@ -123,7 +123,7 @@ pub(crate) fn write_units(folder: &Path, frame: &Frame) -> Result<(), FileError>
     atomic::write(&path, (text + "\n").as_bytes())
 }
 
-/// The series, and `series.csv` where the run writes files.
+/// The series, and `series.csv` if the run writes files.
 #[derive(Default)]
 pub(crate) struct SeriesSink(SeriesFile);
 
@@ -131,7 +131,7 @@ impl SeriesSink {
     /// The series of a run.
     ///
     /// # Errors
-    /// [`FileError`] where the file of a resumed run cannot be read.
+    /// [`FileError`] if the file of a resumed run cannot be read.
     pub(crate) fn new(folder: &Path, start: Start) -> Result<Self, FileError> {
         Ok(Self(match start {
             Start::New => SeriesFile::new(folder),
@@ -139,17 +139,17 @@ impl SeriesSink {
         }))
     }
 
-    /// Adds the row of the solver's present state. A time that was recorded before is replaced, never doubled.
+    /// Adds the row of the solver's present state. An earlier record of the same time is replaced, never duplicated.
     ///
     /// # Errors
-    /// [`FileError`] with the path and a way out.
+    /// [`FileError`] with the path and a remedy.
     pub(crate) fn record(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
         let (columns, row): (Vec<&str>, Vec<f64>) =
             solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
         self.0.record(&columns, row)
     }
 
-    /// How much of the file there is.
+    /// The extent of the file so far.
     pub(crate) fn mark(&self) -> Mark {
         self.0.mark()
     }
@@ -159,7 +159,7 @@ impl SeriesSink {
         self.0.series()
     }
 
-    /// All rows, of which no more will come.
+    /// All rows, after the last one.
     pub(crate) fn into_series(self) -> Series {
         self.0.into_series()
     }

@@ -1,4 +1,4 @@
-//! From what a user gives, a case file, the text of one or a drawing with a few numbers, to a checked case that is held against its geometry.
+//! From the user's input, a case file, its text or a drawing with a few numbers, to a case that is checked against its geometry.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::input::{Document, InputError, Overrides, Problem, file};
 /// Name of the output folder of the built-in case.
 const DEFAULT_NAME: &str = "four-discs";
 
-/// The note where pressures are those of a tension that nobody gave.
+/// The note on pressures if no tension was given.
 const WITHOUT_TENSION: &str = "no tension is given: pressures are those of a tension of 1 N/m; multiply them by yours";
 
 /// A checked case with its name.
@@ -19,54 +19,54 @@ const WITHOUT_TENSION: &str = "no tension is given: pressures are those of a ten
 pub struct Source {
     /// The case.
     pub case: Case,
-    /// The case file with all that was filled in.
+    /// The case file with all defaults filled in.
     pub resolved: String,
     /// Name of the case: that of its file without the ending.
     pub name: String,
-    /// What the user should know of how it was read.
+    /// Notes for the user on how it was read.
     pub notes: Vec<String>,
-    /// The text of the case file; none where there is none.
+    /// The text of the case file; `None` if there is none.
     pub document: Option<Document>,
 }
 
-/// What is wrong with what a user gave.
+/// What is wrong with the user's input.
 #[derive(Debug, thiserror::Error)]
 pub enum Refusal {
-    /// Mistakes with their places in files.
+    /// Mistakes with their locations in files.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// Mistakes in [`NetworkOptions`] and [`Options`], by the keys of a case file that these stand for.
+    /// Mistakes in [`NetworkOptions`] and [`Options`], by the corresponding keys of a case file.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Options(Vec<Problem>),
-    /// A case without a file that no solver can be made for.
+    /// No solver can be made for a case without a file.
     #[error("{0}")]
     Setup(String),
 }
 
 impl Source {
-    /// Why no solver can be made for the case, with the places in its file.
+    /// Why no solver can be made for the case, with the locations in its file.
     pub fn refused(&self, error: &SetupError) -> Refusal {
         let placed = self.document.as_ref().and_then(|document| document.refuse(error.problems()).err());
         placed.map_or_else(|| Refusal::Setup(error.to_string()), Refusal::Input)
     }
 
-    /// Problems of the case that were found later, each with its place in the file.
+    /// Problems of the case that were found later, each with its location in the file.
     pub(crate) fn refused_for(&self, problems: Vec<Problem>) -> Refusal {
-        let told = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+        let message = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
         let placed = self.document.as_ref().and_then(|document| document.refuse(problems).err());
-        placed.map_or(Refusal::Setup(told), Refusal::Input)
+        placed.map_or(Refusal::Setup(message), Refusal::Input)
     }
 
-    /// A case that does not fit, with the place of the key that a user would change.
+    /// A case that does not fit, with the location of the key that a user would change.
     pub(crate) fn refused_at(&self, key: &str, message: &str, help: &str) -> Refusal {
         self.refused_for(vec![Problem::new(key, message, help)])
     }
 }
 
-/// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
+/// Loads a case file, or the built-in case if `None`, and checks it against its geometry.
 ///
 /// # Errors
-/// All mistakes with their places.
+/// All mistakes with their locations.
 pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, InputError> {
     let overrides = Overrides::parse(overrides)?;
     let loaded = match path {
@@ -77,38 +77,38 @@ pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, In
     sound(loaded, name)
 }
 
-/// The same with the text of a case, called `name`. The files that it names are looked for in the working folder.
+/// The same with the text of a case, called `name`. Relative paths in it refer to the working folder.
 ///
 /// # Errors
-/// All mistakes with their places.
+/// All mistakes with their locations.
 pub fn load_case_text(name: &str, text: &str, overrides: &[String]) -> Result<Source, InputError> {
     sound(case::load_given(name, text, &Overrides::parse(overrides)?)?, name.to_owned())
 }
 
-/// Loads a case file as if the file of the state that it begins with held `state`.
+/// Loads a case file as if the file of its initial state contained `state`.
 ///
 /// # Errors
-/// All mistakes with their places.
+/// All mistakes with their locations.
 pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, InputError> {
     let loaded = case::load_started(path, &Overrides::parse(overrides)?, state)?;
     sound(loaded, path.file_stem().unwrap_or_default().to_string_lossy().into())
 }
 
-/// The case where it is right on its geometry.
+/// The case, if it is valid for its geometry.
 fn sound(loaded: Loaded, name: String) -> Result<Source, InputError> {
     loaded.refuse(setup::problems(&loaded.case))?;
     let Loaded { case, resolved, notes, document, .. } = loaded;
     Ok(Source { case, resolved, name, notes, document: Some(document) })
 }
 
-/// Whether a file is a case file, and no shape file, by its content.
+/// Whether a file is a case file, and not a shape file, by its content.
 pub fn is_case_file(path: &Path) -> bool {
-    // What cannot be read as text is for the readers of shape files to tell.
+    // Errors of unreadable files are left to the readers of shape files.
     let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     is_toml && file::read_text(path).is_ok_and(|text| case::is_case(&text))
 }
 
-/// The shapes of a drawing; those that reach over a side that is joined to the opposite one are cut there.
+/// The shapes of a drawing; those that cross a periodic side are cut there.
 ///
 /// # Errors
 /// All mistakes of the file or of the options, or why it cannot be read.
@@ -124,7 +124,7 @@ fn within_sides(mut read: Imported, options: &Options, [x, y]: [bool; 2]) -> Imp
     read
 }
 
-/// The network of a drawing, or of the geometry of a case file, with what is displaced in it. A case of a network keeps its other keys.
+/// The network of a drawing, or of the geometry of a case file, with its displacement. A case of a network keeps its other keys.
 ///
 /// # Errors
 /// All mistakes of the file and of the options.
@@ -142,7 +142,7 @@ pub fn load_network(path: &Path, import: &Options, options: &NetworkOptions) -> 
     network_of(&name, Imported { spec: case.geometry, depth: case.depth, notes }, options)
 }
 
-/// The same of the text of a shape file in TOML, called `name`.
+/// The same for the text of a shape file in TOML, called `name`.
 ///
 /// # Errors
 /// All mistakes of the text and of the options.

@@ -1,40 +1,39 @@
-//! Whether a run is steady, from the rows of its series alone, so that a resumed run decides as an unbroken one.
+//! Whether a run is steady, from the rows of its series alone, so that a resumed run decides like an uninterrupted one.
 //!
-//! Three windows of equal length `w` end at the present row. With the means m₁, m₂, m₃ of a quantity over them, an exponential
-//! approach to its end leaves |d₂| r/(1 − r) after the last one, d₁ = m₂ − m₁, d₂ = m₃ − m₂, r = |d₂/d₁|. The ratio is cut off at
-//! [`SLOWEST`]: slower, or without a decay, what is left is nine times the last change, and where d₁ and d₂ differ in sign, as where
-//! a swing turns, nine times the larger one. A quantity has come to its end where what is left and the range of its values in the
-//! last window are both within its tolerance; a run is steady where all have.
+//! Three windows of equal length `w` end at the present row. With the means m₁, m₂, m₃ of a quantity over them, an exponential approach to its end leaves |d₂|
+//! r/(1 − r) after the last one, d₁ = m₂ − m₁, d₂ = m₃ − m₂, r = |d₂/d₁|. The ratio is cut off at [`SLOWEST`]: if slower, or without a decay, the remaining
+//! change is nine times the last one, and if d₁ and d₂ differ in sign, as at the turning point of an oscillation, nine times the larger one. A quantity is
+//! steady if the remaining change and the range of its values in the last window are both within its tolerance; a run is steady if all its quantities are.
 
 use serde::Serialize;
 
 use crate::case::{FEWEST_ROWS, SteadyStop};
 use crate::solver::{Quantity, Series, Watched};
 
-/// Length of a window over the time so far, where the case gives none: slow changes have that much longer to show.
+/// Length of a window relative to the elapsed time, if the case gives none: slow changes have that much longer to show.
 pub(crate) const SHARE: f64 = 0.2;
 
 /// Largest ratio of the changes from window to window.
 pub(crate) const SLOWEST: f64 = 0.9;
 
-/// Rows nearer to the end of a window than this share of it lie on it.
+/// Rows nearer to the end of a window than this fraction of it are on it.
 const SAME: f64 = 1.0e-6;
 
-/// What is known of a quantity at a row.
+/// The state of a quantity at a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Change {
     /// Column of `series.csv`.
     pub column: &'static str,
     /// Mean over the last window, in the unit of the column.
     pub mean: f64,
-    /// The larger one of what is left to change and of the range in the last window; of a speed its largest value.
+    /// The larger of the remaining change and the range in the last window; for a speed, its largest value.
     pub change: f64,
     /// Largest change of a steady run.
     pub tolerance: f64,
 }
 
 impl Change {
-    /// Whether it has come to its end.
+    /// Whether it is steady.
     pub(crate) fn is_steady(&self) -> bool {
         self.change <= self.tolerance
     }
@@ -44,16 +43,16 @@ impl Change {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Steadiness {
-    /// Time in s of the first row at which all quantities had come to their end; absent where there was none.
+    /// Time in s of the first row at which all quantities were steady; `None` if there was none.
     pub at_s: Option<f64>,
     /// Length in s of each of the three windows at the last row.
     pub window_s: f64,
-    /// The quantities at that row, or at the last row of a run that was never steady; none where the run was too short to tell.
+    /// The quantities at that row, or at the last row of a run that never became steady; empty if the run was too short to decide.
     pub quantities: Vec<Change>,
 }
 
 impl Steadiness {
-    /// What still changes and by how much, in words.
+    /// What still changes and by how much, as text.
     pub(crate) fn unsettled(&self) -> String {
         let changing = self.quantities.iter().filter(|one| !one.is_steady());
         let words = changing.map(|one| {
@@ -96,7 +95,7 @@ fn window(time: f64, steady: &SteadyStop) -> f64 {
     steady.window.unwrap_or(SHARE * time)
 }
 
-/// What is known of each quantity that exists at the last of `rows`; nothing where a window holds too few of them.
+/// The state of each quantity that exists at the last of `rows`; `None` if a window has too few of them.
 fn changes(rows: &[Vec<f64>], columns: &[String], watched: &[Watched], steady: &SteadyStop) -> Vec<Change> {
     let Some(windows) = last_windows(rows, steady) else { return Vec::new() };
     let column = |name: &str| columns.iter().position(|column| column == name);
@@ -112,10 +111,10 @@ fn changes(rows: &[Vec<f64>], columns: &[String], watched: &[Watched], steady: &
 pub(super) fn last_windows<'r>(rows: &'r [Vec<f64>], steady: &SteadyStop) -> Option<[&'r [Vec<f64>]; 3]> {
     let now = *rows.last()?.first()?;
     let length = window(now, steady);
-    // A window holds its end, not its beginning.
+    // A window includes its end, not its start.
     let after = |time: f64| rows.partition_point(|row| row[0] <= time + SAME * length);
     let [a, b, c] = [3.0, 2.0, 1.0].map(|count| now - count * length);
-    // Three windows since time zero, whose row tells of no motion yet.
+    // Three windows since time zero, the row of which has no motion yet.
     if a < -SAME * length {
         return None;
     }
@@ -150,24 +149,24 @@ fn change(
         Quantity::Energy { .. } => steady.kinetic_energy * mean.abs(),
     };
     let range = range(&values[2]);
-    // A value that does not exist in one of the windows leaves it open.
+    // A value missing in one of the windows leaves the decision open.
     let change = if means.iter().all(|mean| mean.is_finite()) { left(means).max(range) } else { f64::NAN };
     Change { column: watched.column, mean, change, tolerance }
 }
 
-/// The largest less the smallest of `values`.
+/// The largest minus the smallest of `values`.
 pub(super) fn range(values: &[f64]) -> f64 {
     let over = |pick: fn(f64, f64) -> f64, from: f64| values.iter().copied().fold(from, pick);
     over(f64::max, f64::NEG_INFINITY) - over(f64::min, f64::INFINITY)
 }
 
-/// What is left to change after the last of three windows with these means.
+/// The remaining change after the last of three windows with these means.
 pub(super) fn left([first, second, third]: [f64; 3]) -> f64 {
     let [before, last] = [second - first, third - second];
     if before * last < 0.0 {
         return before.abs().max(last.abs()) * SLOWEST / (1.0 - SLOWEST);
     }
-    // Twice nothing: no change.
+    // Both changes are zero.
     let ratio = if last == 0.0 { 0.0 } else { (last / before).min(SLOWEST) };
     last.abs() * ratio / (1.0 - ratio)
 }
@@ -203,8 +202,8 @@ mod tests {
         Steadiness::of(&series("contact_angle_deg", value), &ANGLE, &SteadyStop::default())
     }
 
-    /// A drop that swings about its angle, or creeps to it: `change` in degrees decays within `decay` s, while it turns by `swing` rad.
-    /// Speeds are those of a drop whose `Oh` is 0.035 where it swings by 3.7 rad within a decay, as `cases/sessile-drop.toml` does.
+    /// A drop that oscillates about its angle, or creeps to it: `change` in degrees decays within `decay` s, while the phase advances by `swing` rad. Speeds
+    /// are those of a drop whose `Oh` is 0.035 if it oscillates by 3.7 rad within a decay, as in `cases/sessile-drop.toml`.
     fn drop_to_rest(change: f64, decay: f64, swing: f64) -> (Steadiness, impl Fn(f64) -> f64) {
         let value = move |time: f64| change * (-time / decay).exp() * (swing * time / decay).cos();
         let slope = move |time: f64| {
@@ -214,7 +213,7 @@ mod tests {
         let mut drop = series("contact_angle_deg", value);
         drop.columns.extend(["max_speed_m_per_s".into(), "kinetic_energy_J_per_m".into()]);
         for row in &mut drop.rows {
-            // Half the radius moves by the turn of the angle; lengths in radii, the capillary time is 1.28 over the frequency.
+            // Half the radius moves with the rate of the angle; lengths in radii, the capillary time is 1.28 over the frequency.
             let speed = 0.5 * slope(row[0]);
             row.extend([speed, speed * speed]);
         }
@@ -231,7 +230,7 @@ mod tests {
         ) {
             let value = |time: f64| change * (-time / decay).exp();
             if let Some(time) = angle(value).at_s {
-                // What was hardly begun at the first row that can tell is told from rest by nobody.
+                // A change that had hardly started at the first decisive row cannot be distinguished from rest.
                 prop_assert!(value(time).abs() < 0.3 || time < 0.13, "{} degrees at {time} s", value(time));
             }
         }
@@ -291,7 +290,7 @@ mod tests {
         motion.columns.push("max_speed_m_per_s".into());
         motion.rows.iter_mut().for_each(|row| row.push(row[1].sqrt()));
         let steady = SteadyStop::default();
-        // It never comes to an end in proportion, but below 1e-4 of 300 m/s after 0.35 s, and a window later all of it is.
+        // It never becomes steady relative to its value, but is below 1e-4 of 300 m/s after 0.35 s, and one window later all of the window is.
         assert_eq!(Steadiness::of(&motion, &energy(None), &steady).at_s, None);
         let rest = Steadiness::of(&motion, &energy(Some(300.0)), &steady);
         assert!(rest.at_s.is_some_and(|time| (0.42..0.46).contains(&time)), "{rest:?}");

@@ -1,4 +1,4 @@
-//! What a run would take: some first steps of its solver, without any file.
+//! Estimates the cost of a run: some first steps of its solver, without any file.
 
 use std::time::Instant;
 
@@ -11,35 +11,35 @@ use crate::case::Case;
 use crate::io::vtk;
 use crate::solver::{Solver, SolverError};
 
-/// Steps that are tried; the first ones set up what later ones reuse.
+/// Number of trial steps; the first ones set up what later ones reuse.
 const TRIAL_STEPS: usize = 5;
 
-/// The same where nothing else tells how many there will be: a flow that gathers speed soon takes shorter ones.
+/// The same if there is no other estimate of the number of steps: an accelerating flow soon takes shorter ones.
 const MORE_STEPS: usize = 20;
 
-/// No further step is tried after so long, in s: those of many particles take long, and one of them tells enough.
+/// No further step is tried after this time in s: those of many particles take long, and one of them is enough.
 const PATIENCE: f64 = 10.0;
 
-/// What a run would take.
+/// The estimated cost of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) struct Trial {
     /// Number of unknowns: particles or nodes.
     pub(crate) unknowns: usize,
-    /// Time step of the last step tried, in s.
+    /// Length of the last trial step in s.
     pub(crate) time_step_s: f64,
-    /// The limit that ruled it.
+    /// The limit that set it.
     pub(crate) limit: String,
     /// Expected number of steps.
     pub(crate) steps: f64,
-    /// Expected wall time in s on as many threads as there are now.
+    /// Expected wall time in s with the present number of threads.
     pub(crate) duration_s: f64,
-    /// Most memory of this process so far in bytes, where the system tells.
+    /// Peak memory of this process so far in bytes, if the system reports it.
     pub(crate) memory_bytes: Option<u64>,
 }
 
-/// Does the first steps of a case with its solver at time zero: five, or twenty where nothing else tells how many there will be, or as many as ten
-/// seconds allow, at least one. `tried` gets the share of the five that is done, after each and before the first.
+/// Does the first steps of a case with its solver at time zero: five, or twenty if there is no other estimate of their number, or as many as ten seconds allow,
+/// at least one. `tried` receives the completed fraction of the five, after each and before the first.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
@@ -56,7 +56,7 @@ fn trial_within(
 ) -> Result<Trial, SolverError> {
     let clock = Instant::now();
     tried(0.0);
-    // The steps of a run land on its records: the first one may be shorter for them.
+    // The steps of a run end exactly at its records, which may shorten the first one.
     let schedule = Schedule::new(&case.output, case.end);
     let next = |solver: &dyn Solver| schedule.next_after(solver.time()).map_or(case.end, |stop| stop.time);
     let until = next(solver);
@@ -70,7 +70,7 @@ fn trial_within(
         }
         let until = next(solver);
         let after = solver.step(until)?;
-        // A step that ends at a record tells nothing of those between records.
+        // A step cut short by a record is not representative.
         if after.limit != "record" || info.limit == "record" {
             info = after;
         }
@@ -78,18 +78,18 @@ fn trial_within(
     let more = solver.steps().saturating_sub(1);
     // The first step sets up what the others reuse.
     let per_step = if more == 0 { first_s } else { (clock.elapsed().as_secs_f64() - first_s) / more as f64 };
-    // What a record takes, in time and memory.
+    // Time and memory of a record.
     let before_record = clock.elapsed().as_secs_f64();
     let record = || (solver.sample(), solver.snapshot().into_owned(), solver.state());
     let first = record();
     let per_record = clock.elapsed().as_secs_f64() - before_record;
-    // A run needs most memory where it draws its picture while one record is on its way into files and the next one waits.
+    // A run needs most memory when it draws its picture while one record is being written and the next one waits.
     let waiting = record();
     let content = vtk::points(&first.1.particles, compression(&case.output));
     let grid = first.1.grid.as_ref().map(|grid| vtk::grid(grid, compression(&case.output)));
     let picture = drawn(case, solver, &solver.results());
     drop((first, waiting, content, grid, picture));
-    // Steps that grow with the time are cut at every record, most of them late in the run.
+    // Steps that grow with time are cut short by every record, most of them late in the run.
     let records = case.end / case.output.series_every.min(case.output.vtk_every).min(case.output.restart_every);
     let known = solver.steps_to(case.end).map(|left| (left + solver.steps() as f64 + records).ceil());
     let steps = known.unwrap_or_else(|| solver.steps() as f64 + steps_between(&schedule, solver.time(), info.dt));
@@ -103,9 +103,9 @@ fn trial_within(
     })
 }
 
-/// Steps of length `dt` (s) from `time` (s) to the end, all of which land on the records.
+/// Number of steps of length `dt` (s) from `time` (s) to the end, with a step end at each record.
 fn steps_between(schedule: &Schedule, mut time: f64, dt: f64) -> f64 {
-    /// A whole number up to rounding is whole.
+    /// An integer up to rounding is an integer.
     const ROUNDING: f64 = 1e-6;
     let mut steps = 0.0;
     while let Some(stop) = schedule.next_after(time) {
@@ -115,7 +115,7 @@ fn steps_between(schedule: &Schedule, mut time: f64, dt: f64) -> f64 {
     steps
 }
 
-/// The most memory that the program has used so far in bytes, where the system tells.
+/// Peak memory of the program so far in bytes, if the system reports it.
 fn memory() -> Option<u64> {
     const BYTES_PER_KIBIBYTE: u64 = 1024;
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -146,10 +146,10 @@ mod tests {
     #[test]
     fn steps_that_take_long_are_tried_once_and_tell_as_much() {
         for (patience, steps) in [(f64::INFINITY, 20), (0.0, 1)] {
-            let (mut solver, mut told) = (MockSolver::new(), Vec::new());
-            let found = trial_within(&case(), &mut solver, patience, &mut |share| told.push(share)).unwrap();
+            let (mut solver, mut fractions) = (MockSolver::new(), Vec::new());
+            let found = trial_within(&case(), &mut solver, patience, &mut |fraction| fractions.push(fraction)).unwrap();
             assert_eq!((solver.steps(), found.steps), (steps, 50.0));
-            assert_eq!(told[..2], [0.0, 0.2]);
+            assert_eq!(fractions[..2], [0.0, 0.2]);
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Writes files on a thread of its own, so that the solver goes on meanwhile.
+//! Writes files in a separate thread, so that the solver continues meanwhile.
 //!
-//! Records are written one after the other in the order in which they were handed over: a saved state never runs ahead of the files that were
-//! handed over before it. The first error ends the thread, and whoever hands over the next record or waits for the end is told.
+//! Records are written in the order in which they were handed over: a saved state is never ahead of earlier files. The first error ends the thread; it is
+//! returned to the caller that hands over the next record or waits for the end.
 
 use std::panic::resume_unwind;
 use std::path::Path;
@@ -14,46 +14,46 @@ use crate::io::FileError;
 use crate::io::frames::FrameList;
 use crate::io::restart::{self, Saved};
 
-/// Records that may wait while another one is written; who hands over one more waits too. Each takes as much memory as the flow.
+/// Records that may wait while another one is written; the caller of one more waits, too. Each takes as much memory as the flow.
 const WAITING: usize = 1;
 
-/// What is handed over.
+/// A record to write.
 pub(crate) enum Record {
     /// A frame for the VTK files.
     Frame(Box<Frame>),
-    /// A state to resume from, but for the mark in the list of frames, and the processor time in s until then.
+    /// A state to resume from, without the mark in the list of frames, and the processor time in s until then.
     State(Saved, Option<f64>),
 }
 
-/// A thread that writes.
+/// A writer thread.
 pub(crate) struct Writer {
     records: Option<SyncSender<Record>>,
     thread: Option<JoinHandle<Result<(), FileError>>>,
 }
 
 impl Writer {
-    /// Writes frames to `files`, which note them in `frames`, and states to `folder`.
+    /// Writes frames to `files`, listed in `frames`, and states to `folder`.
     ///
     /// # Errors
-    /// [`FileError::Write`] where the system starts no thread.
+    /// [`FileError::Write`] if the system cannot start a thread.
     pub(crate) fn start(folder: &Path, files: VtkFiles, frames: FrameList) -> Result<Self, FileError> {
         let (sender, receiver) = sync_channel(WAITING);
-        let place = folder.to_path_buf();
+        let target = folder.to_path_buf();
         let thread = std::thread::Builder::new()
             .name("output".into())
-            .spawn(move || write_all(&place, files, frames, &receiver))
+            .spawn(move || write_all(&target, files, frames, &receiver))
             .map_err(FileError::write(folder))?;
         Ok(Self { records: Some(sender), thread: Some(thread) })
     }
 
-    /// Hands over a record; waits while too many are left to be written.
+    /// Hands over a record; waits while too many are pending.
     ///
     /// # Errors
-    /// The [`FileError`] of a record before, which ended the thread.
+    /// The [`FileError`] of an earlier record, which ended the thread.
     pub(crate) fn write(&mut self, record: Record) -> Result<(), FileError> {
         match self.records.as_ref().map(|records| records.send(record)) {
             Some(Ok(())) => Ok(()),
-            // The other end is gone: something went wrong there.
+            // The receiver is gone: the thread has failed.
             Some(Err(_)) | None => self.finish(),
         }
     }
@@ -73,11 +73,11 @@ impl Writer {
 }
 
 impl Drop for Writer {
-    /// What was handed over is still written where the run ends early.
+    /// Pending records are still written if the run ends early.
     fn drop(&mut self) {
         self.records = None;
         if let Some(thread) = self.thread.take() {
-            // There is no one left to tell.
+            // Nobody is left to report an error to.
             let _ = thread.join();
         }
     }
@@ -138,11 +138,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         atomic::write(&folder.path().join("grid"), b"").unwrap();
         let mut writer = writer(folder.path());
-        let mut told = writer.write(Record::Frame(Box::new(Frame::of(&MockSolver::new()))));
+        let mut result = writer.write(Record::Frame(Box::new(Frame::of(&MockSolver::new()))));
         for step in 0..5 {
-            told = told.and_then(|()| writer.write(state(step)));
+            result = result.and_then(|()| writer.write(state(step)));
         }
-        let error = told.and_then(|()| writer.finish()).unwrap_err().to_string();
+        let error = result.and_then(|()| writer.finish()).unwrap_err().to_string();
         assert!(error.contains("grid"), "{error}");
         assert!(!restart::path(folder.path()).exists());
         assert!(writer.finish().is_ok(), "an error is told once");

@@ -1,4 +1,4 @@
-//! Axes of a study file: lists, ranges, pairs, CSV files and base cases, turned into columns of values.
+//! Axes of a study file: lists, ranges, pairs, CSV files and base cases, converted to columns of values.
 
 use std::path::Path;
 
@@ -9,13 +9,13 @@ use super::raw::{RawAxis, RawColumn, RawRange, RawScale};
 use crate::case::read;
 use crate::input::Checker;
 
-/// Most values of an axis: a study with more runs is no study.
+/// Most values of an axis.
 const MOST_VALUES: usize = 10_000;
 
-/// Digits that are kept of a computed value, so that 0.1 + 2 x 0.1 is written as 0.3.
+/// Significant digits of a computed value, so that 0.1 + 2 x 0.1 is written as 0.3.
 const DIGITS: usize = 12;
 
-/// The axis at `axis[index]` of the file; files are looked for in `folder`.
+/// The axis at `axis[index]` of the file; paths are relative to `folder`.
 pub(super) fn axis(checker: &mut Checker, raw: &RawAxis, index: usize, folder: &Path) -> Option<Axis> {
     let at = format!("axis[{index}]");
     let kinds = [
@@ -53,7 +53,7 @@ pub(super) fn axis(checker: &mut Checker, raw: &RawAxis, index: usize, folder: &
     Some(Axis { columns })
 }
 
-/// Refuses keys that do not go with the kind of the axis.
+/// Refuses keys that do not belong to the kind of the axis.
 fn refuse_foreign_keys(checker: &mut Checker, raw: &RawAxis, kind: &str, at: &str) {
     let keys: [(&str, bool, &[&str]); 5] = [
         ("name", raw.name.is_some(), &["key", "cases"]),
@@ -107,7 +107,7 @@ fn column_of(checker: &mut Checker, raw: &RawColumn, at: &str) -> Option<Column>
         }
         (values, _) => {
             let found = if values.is_some() { "both" } else { "neither" };
-            let help = "values = [1.0, 2.0]; a `distribution` stands beside the `key` of an axis";
+            let help = "values = [1.0, 2.0]; a `distribution` belongs next to the `key` of an axis";
             checker.refuse(at, format!("expected `values` or `range`, found {found}"), help);
             return None;
         }
@@ -163,17 +163,17 @@ fn numbers(checker: &mut Checker, raw: &RawRange, at: &str) -> Option<Vec<f64>> 
         );
         return None;
     }
-    let share = |number: usize| number as f64 / (count - 1) as f64;
+    let fraction = |number: usize| number as f64 / (count - 1) as f64;
     let value = |number: usize| match number {
         0 => from,
         last if last + 1 == count => to,
-        _ if logarithmic => rounded(from * (to / from).powf(share(number))),
-        _ => rounded(from + (to - from) * share(number)),
+        _ if logarithmic => rounded(from * (to / from).powf(fraction(number))),
+        _ => rounded(from + (to - from) * fraction(number)),
     };
     Some((0..count).map(value).collect())
 }
 
-/// The number to [`DIGITS`] digits.
+/// The number, rounded to [`DIGITS`] digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.precision$e}", precision = DIGITS - 1).parse().unwrap_or(number)
 }
@@ -182,7 +182,7 @@ fn rounded(number: f64) -> f64 {
 fn table(checker: &mut Checker, raw: &RawAxis, at: &str, folder: &Path) -> Option<Vec<Column>> {
     let at_table = format!("{at}.table");
     let path = folder.join(raw.table.as_deref()?);
-    let text = match read(&path, "the file is looked for beside the study file") {
+    let text = match read(&path, "its path is relative to the study file") {
         Ok(text) => text,
         Err(error) => {
             error.mistakes.iter().for_each(|m| checker.refuse(&at_table, m.message.clone(), m.help_text()));
@@ -235,7 +235,7 @@ fn table(checker: &mut Checker, raw: &RawAxis, at: &str, folder: &Path) -> Optio
     Some(columns)
 }
 
-/// A field as a number where it is one, else as text.
+/// A field as a number if it is one, else as text.
 fn field_value(field: &str) -> Value {
     match field.parse::<f64>() {
         Ok(number) if number.is_finite() => Value::Float(number),

@@ -7,17 +7,17 @@ use crate::case::{self, Case, KeptGeometry, Loaded};
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
 
-/// The expectations of a base case hold for its own values; a study has its own.
+/// The expectations of a base case apply to its own values; a study has its own.
 const WITHOUT_EXPECTATIONS: &str = "expect=[]";
 
-/// What differs from the base case, as `--set` takes it.
+/// The differences from the base case in the form of `--set`.
 pub(super) fn overrides(assignments: &[Assignment]) -> Vec<String> {
     let mut texts = vec![WITHOUT_EXPECTATIONS.to_owned()];
     texts.extend(assignments.iter().map(|one| one.text.clone()));
     texts
 }
 
-/// Loads a case with these values and holds it against its geometry.
+/// Loads a case with these values and checks it against its geometry.
 ///
 /// # Errors
 /// All mistakes.
@@ -28,7 +28,7 @@ pub(super) fn load(case: &Path, assignments: &[Assignment]) -> Result<Loaded, In
     Ok(loaded)
 }
 
-/// Loads a case of a network with these values, not written out; `kept` has the geometry of the case before.
+/// Loads a case of a network with these values, without its resolved text; `kept` has the geometry of the previous case.
 ///
 /// # Errors
 /// All mistakes.

@@ -1,8 +1,8 @@
-//! Other processes of this program: one tries what a run would take, one does a run.
+//! Other processes of this program: one estimates the cost of a run, one does a run.
 //!
-//! A run has a process of its own, so that one that dies takes no other with it, its memory can be measured and goes back
-//! to the system, and a run on a cluster is the same command. The standard input of such a process is a pipe that its parent
-//! holds: where the parent dies, however that comes, the pipe closes and the run saves its state and ends.
+//! Each run is a process, so that a crash does not affect others, its memory can be measured and is returned to the system, and a run on a cluster is the same
+//! command. The standard input of such a process is a pipe held by its parent: when the parent dies, for whatever reason, the pipe closes, and the run saves
+//! its state and ends.
 
 use std::fs::File;
 use std::io;
@@ -11,7 +11,7 @@ use std::process::{Child, Command, Output, Stdio};
 
 use super::run::Run;
 
-/// The program, to be started again.
+/// The program, to be started as another process.
 #[derive(Debug, Clone)]
 pub(crate) struct Program {
     /// Its file.
@@ -20,14 +20,14 @@ pub(crate) struct Program {
     pub(crate) study: PathBuf,
 }
 
-/// Number of threads of the loops of a process.
+/// Environment variable for the number of threads.
 const THREADS: &str = "RAYON_NUM_THREADS";
 
 impl Program {
-    /// What `check --json` tells of a run on so many threads.
+    /// The output of `check --json` for a run with this number of threads.
     ///
     /// # Errors
-    /// What the process said.
+    /// The error output of the process.
     pub(crate) fn check(&self, run: &Run, threads: usize) -> Result<Vec<u8>, String> {
         let mut command = Command::new(&self.path);
         command.args(["check", "--json"]).env(THREADS, threads.to_string()).stdin(Stdio::null());
@@ -41,10 +41,10 @@ impl Program {
         Err(errors_of(&output))
     }
 
-    /// Starts a process that does one run; `digest` is that of its case, and what it says goes to `log`.
+    /// Starts a process that does one run; `digest` is that of its case, and its output goes to `log`.
     ///
     /// # Errors
-    /// [`io::Error`] where it cannot be started.
+    /// [`io::Error`] if it cannot be started.
     pub(crate) fn start(&self, run: &Run, digest: &str, folder: &Path, threads: usize, log: File) -> io::Result<Child> {
         let also_log = log.try_clone()?;
         Command::new(&self.path)
@@ -60,12 +60,12 @@ impl Program {
     }
 }
 
-/// What a process wrote as results, on one line.
+/// The standard output of a process, on one line.
 pub(crate) fn words_of(output: &Output) -> String {
     one_line(&output.stdout)
 }
 
-/// What a process wrote as errors, on one line.
+/// The error output of a process, on one line.
 pub(crate) fn errors_of(output: &Output) -> String {
     one_line(&output.stderr)
 }

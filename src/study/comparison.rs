@@ -1,5 +1,5 @@
-//! Runs that compare their case, a direct simulation, with a network of the same geometry: which values of a run go to which of both cases, and
-//! whether both fit.
+//! Runs that compare their case, a direct simulation, with a network of the same geometry: the assignment of the values of a run to the two cases, and their
+//! consistency.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::run::compare::{self, CompareError, Of, Pair};
 
 /// The table that only the case of a network has.
 const OF_NETWORK: &str = "network";
-/// The table that both cases have alike.
+/// The table common to both cases.
 const OF_BOTH: &str = "geometry";
 /// The key that names the case of the network.
 pub(super) const NETWORK_KEY: &str = "compare.network";
@@ -21,7 +21,7 @@ pub(super) const NETWORK_KEY: &str = "compare.network";
 pub struct NetworkRun {
     /// Its base case.
     pub case: PathBuf,
-    /// What differs from it.
+    /// The differences from it.
     pub assignments: Vec<Assignment>,
     /// Number of compared states of the direct simulation.
     pub records: usize,
@@ -32,13 +32,13 @@ pub struct NetworkRun {
 pub(super) struct DirectRun<'a> {
     /// Its base case.
     pub(crate) case: &'a Path,
-    /// Where the base case is named: a key path in the study file.
+    /// Where the base case is given: a key path in the study file.
     pub(crate) origin: &'a str,
-    /// What differs from it.
+    /// The differences from it.
     pub(crate) assignments: &'a [Assignment],
 }
 
-/// The network of a run with its case checked.
+/// The network of a run with its checked case.
 #[derive(Debug, Clone)]
 pub struct PlannedNetwork {
     /// The case.
@@ -47,7 +47,7 @@ pub struct PlannedNetwork {
     pub document: Document,
     /// Number of compared states of the direct simulation.
     pub records: usize,
-    /// The case file of the direct simulation with all that was filled in.
+    /// The case file of the direct simulation with all defaults filled in.
     pub of_direct: String,
 }
 
@@ -58,8 +58,8 @@ impl PlannedNetwork {
     }
 }
 
-/// Gives the values of a run to the case that has their keys: those of `[network]` to the network, those of `[geometry]` to both, all others to
-/// the direct simulation. Its own are left in `assignments`.
+/// Distributes the values of a run to the cases that have their keys: those of `[network]` to the network, those of `[geometry]` to both, all others to the
+/// direct simulation, for which they remain in `assignments`.
 pub(super) fn split(plan: &ComparisonPlan, assignments: &mut Vec<Assignment>) -> NetworkRun {
     let is_in = |one: &Assignment, table: &str| one.text.split(['.', '[', '=']).next().map(str::trim) == Some(table);
     let of_network = assignments.iter().filter(|one| is_in(one, OF_NETWORK) || is_in(one, OF_BOTH)).cloned().collect();
@@ -67,7 +67,7 @@ pub(super) fn split(plan: &ComparisonPlan, assignments: &mut Vec<Assignment>) ->
     NetworkRun { case: plan.network.clone(), assignments: of_network, records: plan.records }
 }
 
-/// Loads both cases and holds them against each other. The resolved text is that of both, by which a comparison is known.
+/// Loads both cases and compares their geometry and sides. The resolved text is that of both, which identifies a comparison.
 ///
 /// # Errors
 /// All mistakes of both, or why they cannot be compared.
@@ -83,7 +83,7 @@ pub(super) fn plan(
     direct.resolved = format!("# direct simulation, {records} records\n{of_direct}\n# network\n{}", other.resolved);
     let other = PlannedNetwork { case: other.case, document: other.document, records, of_direct };
     if let Err(error) = compare::check(&other.with(&direct.case)) {
-        // Which two cases are compared is said by the study, not by one of them.
+        // The study determines which two cases are compared, not one of them.
         let here = match &error {
             CompareError::NoNetwork => Some((NETWORK_KEY, error.to_string())),
             CompareError::OtherGeometry(_) => Some((NETWORK_KEY, format!("{error}: that of {}", case.display()))),
@@ -109,10 +109,10 @@ fn both<T>(one: Result<T, InputError>, other: Result<T, InputError>) -> Result<(
     }
 }
 
-/// Puts what is wrong with two cases at its place in one of them.
+/// Locates what is wrong with two cases in one of them.
 ///
 /// # Errors
-/// [`InputError`] where something is wrong with a case.
+/// [`InputError`] if something is wrong with a case.
 pub(super) fn refuse(error: &CompareError, network: &Document, direct: &Document) -> Result<(), InputError> {
     match error.problems() {
         Some((Of::Network, problems)) => network.refuse(problems),

@@ -1,4 +1,4 @@
-//! Errors along a parameter, as a rule a spacing, in runs that differ in nothing else, and their observed orders.
+//! Errors along a parameter, usually a spacing, in runs that are otherwise equal, and their observed orders.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::analysis::convergence::observed_order;
 /// Last part of a key that is a spacing.
 const SPACING: &str = "spacing";
 
-/// The error of a measure along a parameter, in runs that differ in nothing else.
+/// The error of a measure along a parameter, in runs that are otherwise equal.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Convergence {
     /// The runs: the values of the other parameters.
@@ -19,25 +19,25 @@ pub(crate) struct Convergence {
     pub(crate) measure: String,
     /// Name of the parameter.
     pub(crate) along: String,
-    /// Error that counts as converged: what the study states, and at least the rounding of the measure.
+    /// Error that counts as converged: the floor given in the study, and at least the rounding error of the measure.
     pub(crate) floor: f64,
     /// Parameter and error of each complete run, from the largest parameter to the smallest.
     pub(crate) points: Vec<(f64, f64)>,
-    /// Whether all runs of it are complete and measured.
+    /// Whether all its runs are complete and measured.
     pub(crate) complete: bool,
-    /// Whether all runs of it reached their end; a measure that is missing then is a miss.
+    /// Whether all its runs reached their end; a missing measure then misses the expectation.
     pub(crate) ended: bool,
 }
 
 impl Convergence {
-    /// The observed order of the errors above the floor; none for fewer than two of them.
+    /// The observed order of the errors above the floor; `None` for fewer than two of them.
     pub(crate) fn order(&self) -> Option<f64> {
         let above = self.points.iter().copied().filter(|(_, error)| *error > self.floor);
         let (parameters, errors): (Vec<f64>, Vec<f64>) = above.unzip();
         Some(observed_order(&parameters, &errors)).filter(|order| errors.len() > 1 && order.is_finite())
     }
 
-    /// Whether the error falls from each point to the next, as far as it lies above the floor.
+    /// Whether the error decreases from each point to the next, as far as it is above the floor.
     pub(crate) fn falls(&self) -> bool {
         self.points.windows(2).all(|pair| pair[1].1 < pair[0].1 || pair[1].1 <= self.floor)
     }
@@ -47,7 +47,7 @@ impl Convergence {
         self.floor > 0.0 && self.points.last().is_some_and(|(_, error)| *error <= self.floor)
     }
 
-    /// The observed order as text: `at its floor` where too few errors lie above it, `none` where there is none.
+    /// The observed order as text: `at its floor` if too few errors are above it, `none` if there is none.
     pub(crate) fn order_text(&self) -> String {
         match self.order() {
             Some(order) => format!("{order:.2}"),
@@ -57,13 +57,13 @@ impl Convergence {
     }
 }
 
-/// The results in groups that differ in nothing but the parameter `along` and those that vary with it, each with its name.
+/// The results in named groups of equal parameters, except for `along` and those that vary with it.
 pub(crate) fn groups<'a>(
     study: &Study,
     along: &str,
     results: impl Iterator<Item = &'a RunResult>,
 ) -> Vec<(String, Vec<&'a RunResult>)> {
-    // Parameters of its axis that follow from it do not tell runs apart.
+    // Parameters of its axis that depend on it do not distinguish runs.
     let follows = |column: &Column, from: &Column| {
         let pairs = || from.values.iter().zip(&column.values);
         pairs().all(|(x, y)| pairs().all(|(other, z)| !same(x, other) || same(y, z)))
@@ -80,14 +80,14 @@ pub(crate) fn groups<'a>(
         others.map(|p| format!("{}={}", p.name, shown(&p.value))).collect::<Vec<_>>().join(" ")
     };
     let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
-    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    let mut indices: BTreeMap<String, usize> = BTreeMap::new();
     for result in results {
         let name = group(result);
-        let place = *places.entry(name.clone()).or_insert(groups.len());
-        if place == groups.len() {
+        let index = *indices.entry(name.clone()).or_insert(groups.len());
+        if index == groups.len() {
             groups.push((name, Vec::new()));
         }
-        groups[place].1.push(result);
+        groups[index].1.push(result);
     }
     groups
 }
@@ -127,7 +127,7 @@ pub(crate) fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) 
     groups.into_iter().map(convergence).collect()
 }
 
-/// The errors of all trends; and where a spacing varies, of every measure of which the study expects a value.
+/// The errors of all trends; and if a spacing varies, of every measure with an expected value.
 pub(crate) fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
     let spacing = spacing(study);
     let mut trends = study.trends.clone();
@@ -194,10 +194,10 @@ mod tests {
             let results = complete(&study, |run| 40.0 + rounding[run.index - 1]);
             let found = convergences(&study, &study.trends[0], &results).remove(0);
             assert_eq!((found.order(), found.order_text().as_str()), (None, "at its floor"), "{found:?}");
-            // What is exact but for rounding has converged.
+            // A measure that is exact up to rounding has converged.
             assert_eq!(judgments(&study, &results)[0].verdict, Verdict::Met);
         }
-        // Two errors and one of rounding: the order is that of the two.
+        // Two errors and a rounding error: the order is that of the two.
         let results = complete(&study, |run| 40.0 + [1.0e-2, 2.5e-3, 1.0e-13][run.index - 1]);
         let found = convergences(&study, &study.trends[0], &results).remove(0);
         assert!((found.order().unwrap() - 2.0).abs() < 1.0e-6, "{found:?}");

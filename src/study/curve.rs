@@ -1,4 +1,4 @@
-//! The curves of a study as SVG: measures or errors over a parameter, a line per value of another one.
+//! The curves of a study as SVG: measures or errors over a parameter, one line per value of another parameter.
 
 use plotters::coord::combinators::BindKeyPoints;
 use plotters::prelude::*;
@@ -26,29 +26,29 @@ pub(crate) struct Point {
     pub(crate) y: f64,
     /// Uncertainty of y.
     pub(crate) uncertainty: Option<f64>,
-    /// Whether y no longer moved at the end of its run, nor x; other points are hollow.
+    /// Whether y and x no longer changed at the end of the run; other points are hollow.
     pub(crate) is_at_rest: bool,
-    /// Whether y is an error that is rounding, which has no order.
+    /// Whether y is a rounding error, which has no order.
     pub(crate) is_rounding: bool,
 }
 
 /// One line of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Line {
-    /// Its name; empty where there is only one line.
+    /// Its name; empty if there is only one line.
     pub name: String,
-    /// Points by rising x.
+    /// Points by increasing x.
     pub points: Vec<Point>,
-    /// What y should be, by rising x.
+    /// Reference values of y, by increasing x.
     pub reference: Vec<(f64, f64)>,
 }
 
-/// The parameters whose values separate the lines of a curve: its series and, where a line would have two values at one x, others that vary.
+/// The parameters whose values separate the lines of a curve: its series and, if a line would have two values at one x, others that vary.
 fn series(curve: &Curve, results: &[RunResult]) -> Vec<String> {
     let mut names: Vec<String> = curve.series.iter().cloned().collect();
     let all = || results.iter().flat_map(|result| &result.run.parameters).map(|parameter| &parameter.name);
     let is_parameter = all().any(|name| *name == curve.x);
-    // Runs that differ in nothing else would stand on one point.
+    // Otherwise equal runs would be on one point.
     let shared = |names: &[String]| {
         let keys = results.iter().map(|result| {
             let of_line: Vec<_> = names.iter().map(|name| result.run.value(name)).collect();
@@ -77,7 +77,7 @@ pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
         let (Some(x), Some(y)) = (result.number(&curve.x), result.number(&curve.y)) else { continue };
         let reference = curve.reference.as_ref().and_then(|reference| result.run.quantity(reference));
         let shown_y = if curve.error { (y - reference.unwrap_or(0.0)).abs() } else { y };
-        let place = lines.iter().position(|line| line.name == name).unwrap_or_else(|| {
+        let index = lines.iter().position(|line| line.name == name).unwrap_or_else(|| {
             lines.push(Line { name, points: Vec::new(), reference: Vec::new() });
             lines.len() - 1
         });
@@ -85,11 +85,11 @@ pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
             let is_rounding = curve.error && shown_y <= result.rounding(&curve.y, reference.unwrap_or(0.0));
             let is_at_rest = [&curve.x, &curve.y].into_iter().all(|name| result.motion(name).is_none());
             let uncertainty = result.uncertainty(&curve.y);
-            lines[place].points.push(Point { x, y: shown_y, uncertainty, is_at_rest, is_rounding });
+            lines[index].points.push(Point { x, y: shown_y, uncertainty, is_at_rest, is_rounding });
         }
         if let Some(reference) = reference.filter(|r| !curve.error && fits(curve.x_scale, x) && fits(curve.y_scale, *r))
         {
-            lines[place].reference.push((x, reference));
+            lines[index].reference.push((x, reference));
         }
     }
     for line in &mut lines {
@@ -100,7 +100,7 @@ pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
     lines
 }
 
-/// Draws a curve; `None` where there is no point yet.
+/// Draws a curve; `None` if there is no point yet.
 pub(crate) fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, CurveError> {
     let lines = lines(curve, results);
     if lines.is_empty() {
@@ -135,9 +135,9 @@ pub(crate) fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>
     Ok(Some(text))
 }
 
-/// The values of x where they are few enough to stand at the axis.
+/// The values of x if they are few enough for tick labels.
 fn distinct(lines: &[Line]) -> Option<Vec<f64>> {
-    /// More labels than this would meet.
+    /// More labels would overlap.
     const MOST: usize = 8;
     let mut values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.x)).collect();
     values.sort_by(f64::total_cmp);
@@ -158,7 +158,7 @@ fn y_label(curve: &Curve, results: &[RunResult]) -> String {
     }
 }
 
-/// The name of a line in the legend, with the observed order or slope where the scales show a power law as a straight line.
+/// The name of a line in the legend, with the observed order or slope if the scales show a power law as a straight line.
 fn legend(curve: &Curve, line: &Line) -> String {
     let logarithmic = curve.x_scale == RawScale::Logarithmic && curve.y_scale == RawScale::Logarithmic;
     let counted = line.points.iter().filter(|point| !point.is_rounding);
@@ -185,11 +185,11 @@ fn draw<'a>(
     let names: Vec<(String, RGBColor)> = lines.iter().enumerate().map(name).collect();
     let named = names.iter().any(|(name, _)| !name.is_empty());
     let width = SIZE.0 + if named { LEGEND } else { 0 };
-    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
-    whole.fill(&WHITE)?;
-    let (area, beside) = whole.split_horizontally(SIZE.0);
+    let canvas = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    canvas.fill(&WHITE)?;
+    let (area, margin) = canvas.split_horizontally(SIZE.0);
     if named {
-        draw_legend(&beside, &names)?;
+        draw_legend(&margin, &names)?;
     }
     let mut chart = ChartBuilder::on(&area)
         .caption(&curve.title, ("sans-serif", 20))
@@ -217,13 +217,13 @@ fn draw<'a>(
             .iter()
             .filter_map(|point| Some((point.x, point.y, point.uncertainty.filter(|_| !curve.error)?)));
         chart.draw_series(bars.map(|(x, y, u)| PathElement::new([(x, y - u), (x, y + u)], color)))?;
-        // White below the rings of what is not at rest.
+        // White below the rings of points that are not at rest.
         chart.draw_series(points().map(|point| Circle::new(point, 4, WHITE.filled())))?;
         let style = |point: &Point| if point.is_at_rest { color.filled() } else { color.stroke_width(2) };
         chart.draw_series(line.points.iter().map(|point| Circle::new((point.x, point.y), 4, style(point))))?;
         chart.draw_series(DashedLineSeries::new(line.reference.iter().copied(), 6, 4, color.into()))?;
     }
-    whole.present()
+    canvas.present()
 }
 
 #[cfg(test)]
@@ -271,7 +271,7 @@ mod tests {
                 + run.quantity(&Quantity::Parameter("dx".into())).unwrap().powi(2)
         });
         let found = lines(&study.report.curves[0], &results);
-        // The spacing of 0 has no place on a logarithmic axis.
+        // The spacing 0 cannot be shown on a logarithmic axis.
         assert_eq!(found.len(), 2);
         assert_eq!((found[1].name.as_str(), found[1].points.len()), ("angle = 60", 2));
         assert_eq!(found[1].reference, [(0.1, 60.0), (0.2, 60.0)]);

@@ -1,4 +1,4 @@
-//! A checked study: what varies, what must come out, what is shown.
+//! A checked study: what varies, what is expected, what is shown.
 
 use std::path::PathBuf;
 
@@ -12,21 +12,21 @@ use crate::input::{InputError, Problem};
 pub struct Study {
     /// Name: that of its file without the ending.
     pub name: String,
-    /// One line that says what the study shows.
+    /// One line that describes the study.
     pub title: String,
-    /// The base case; absent where an axis names the cases.
+    /// The base case; `None` if an axis gives the cases.
     pub case: Option<PathBuf>,
-    /// What each run is compared with, where it is.
+    /// The comparison of each run with a network, if any.
     pub compare: Option<ComparisonPlan>,
-    /// Values that are the same in all runs.
+    /// Values common to all runs.
     pub set: Vec<Assignment>,
     /// What varies; the first one varies slowest.
     pub axes: Vec<Axis>,
-    /// How uncertain values are sampled; absent where none is.
+    /// Sampling of uncertain values; `None` if there are none.
     pub sampling: Option<Sampling>,
-    /// Measures that must come out as said.
+    /// Expected measures.
     pub expectations: Vec<Expectation>,
-    /// Errors that must fall.
+    /// Errors that must decrease.
     pub trends: Vec<Trend>,
     /// What the report shows.
     pub report: ReportPlan,
@@ -47,18 +47,18 @@ pub struct ComparisonPlan {
 pub struct Assignment {
     /// `KEY=VALUE`, as in `--set`.
     pub text: String,
-    /// Where it comes from: a key path in the study file.
+    /// Its source: a key path in the study file.
     pub origin: String,
 }
 
-/// How uncertain values are sampled. One axis has the samples: a row for each of them.
+/// Sampling of uncertain values. One axis has the samples: a row for each of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sampling {
-    /// Number of samples; with indices each is so many runs more.
+    /// Number of samples; with Sobol indices each has further runs.
     pub count: usize,
     /// Whether the rows are those of Sobol indices: for each sample a row of A, one of B, and one of A with the column of B for each input.
     pub indices: bool,
-    /// Whether samples of networks are processes too.
+    /// Whether samples of networks run as processes, too.
     pub processes: bool,
     /// The uncertain values.
     pub inputs: Vec<Input>,
@@ -70,18 +70,18 @@ impl Sampling {
         if self.indices { self.inputs.len() + 2 } else { 1 }
     }
 
-    /// Number of rows of a sample, the first ones, that are independent draws of all inputs.
+    /// Number of initial rows of a sample that are independent draws of all inputs.
     pub(crate) fn draws(&self) -> usize {
         if self.indices { 2 } else { 1 }
     }
 
-    /// Whether a parameter is one of an axis of samples.
+    /// Whether a parameter belongs to the axis of samples.
     pub(crate) fn has(&self, name: &str) -> bool {
         name == SAMPLE || (self.indices && name == MATRIX) || self.inputs.iter().any(|input| input.name == name)
     }
 }
 
-/// The parameters of the axis of samples beside the inputs: the number of its row, and with indices what the row is for.
+/// The parameters of the axis of samples besides the inputs: the index of its row, and for Sobol indices the role of the row.
 pub(crate) const SAMPLE: &str = "sample";
 pub(crate) const MATRIX: &str = "matrix";
 
@@ -90,14 +90,14 @@ pub(crate) const MATRIX: &str = "matrix";
 pub struct Input {
     /// Name of its parameter.
     pub name: String,
-    /// Keys of the case that take it.
+    /// Keys of the case that are set to it.
     pub keys: Vec<String>,
 }
 
-/// What varies together.
+/// Parameters that vary together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// The parameters, at least one, all with as many values.
+    /// The parameters, at least one, all with the same number of values.
     pub columns: Vec<Column>,
 }
 
@@ -111,11 +111,11 @@ impl Axis {
 /// What a parameter changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
-    /// Keys of the case, at least one, that take the same value.
+    /// Keys of the case, at least one, that are set to the same value.
     Keys(Vec<String>),
     /// The base case: the files, one per value.
     Case(Vec<PathBuf>),
-    /// Nothing: a number to compare with.
+    /// Nothing: a number for comparison only.
     Nothing,
 }
 
@@ -128,11 +128,11 @@ pub struct Column {
     pub target: Target,
     /// The values.
     pub values: Vec<Value>,
-    /// Where each value comes from: a key path in the study file.
+    /// The source of each value: a key path in the study file.
     pub origins: Vec<String>,
 }
 
-/// A number, or the parameter that holds it.
+/// A number, or the parameter with its value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Quantity {
     /// A number.
@@ -141,11 +141,11 @@ pub enum Quantity {
     Parameter(String),
 }
 
-/// Values of parameters that choose runs; none chooses all.
+/// Parameter values that select runs; empty: all.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Choice(pub Vec<(String, Value)>);
 
-/// A measure that must come out as said.
+/// An expected measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
     /// Name of the measure.
@@ -154,31 +154,31 @@ pub struct Expectation {
     pub value: Quantity,
     /// Largest accepted deviation, same unit.
     pub tolerance: Quantity,
-    /// In which runs.
+    /// Selection of runs.
     pub only: Choice,
 }
 
-/// An error that must fall as a parameter falls.
+/// An error that must decrease with a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trend {
     /// Name of the measure.
     pub measure: String,
-    /// What the measure should be.
+    /// Reference value of the measure.
     pub reference: Quantity,
     /// The parameter.
     pub along: String,
-    /// Least observed order.
+    /// Smallest accepted observed order.
     pub order: Option<f64>,
-    /// Error that counts as converged, in the measure's unit; 0 where none is stated.
+    /// Error that counts as converged, in the measure's unit; 0 if not given.
     pub floor: f64,
-    /// In which runs.
+    /// Selection of runs.
     pub only: Choice,
 }
 
 /// What the report shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportPlan {
-    /// The measures in the table; absent for all.
+    /// The measures in the table; `None` for all.
     pub measures: Option<Vec<String>>,
     /// The curves.
     pub curves: Vec<Curve>,
@@ -195,11 +195,11 @@ pub struct Curve {
     pub x: String,
     /// Measure along y.
     pub y: String,
-    /// Parameter that makes a line of its own per value.
+    /// Parameter with one line per value.
     pub series: Option<String>,
-    /// What y should be.
+    /// Reference value of y.
     pub reference: Option<Quantity>,
-    /// Whether the deviation from the reference is drawn in place of y.
+    /// Whether the deviation from the reference is drawn instead of y.
     pub error: bool,
     /// Scale of x.
     pub x_scale: RawScale,
@@ -213,10 +213,10 @@ impl Study {
         self.axes.iter().flat_map(|axis| &axis.columns)
     }
 
-    /// Puts problems at their places in the study file.
+    /// Locates problems in the study file.
     ///
     /// # Errors
-    /// [`InputError`] where there are problems.
+    /// [`InputError`] if there are problems.
     pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
         self.document.refuse(problems)
     }

@@ -1,4 +1,4 @@
-//! All runs of a study on this machine: each in a process of its own, as many at once as cores and memory allow.
+//! All runs of a study on this machine: each as a process, with as many concurrent ones as cores and memory allow.
 
 use std::collections::VecDeque;
 use std::fs::OpenOptions;
@@ -21,64 +21,64 @@ pub(crate) mod code {
     pub(crate) const DONE: u8 = 0;
     /// The solver failed.
     pub(crate) const FAILED: u8 = 4;
-    /// Interrupted; it can be taken up.
+    /// Interrupted; it can be resumed.
     pub(crate) const INTERRUPTED: u8 = 130;
 }
 
-/// Memory that a run is given over what its first steps took: later states take more.
+/// Memory reserved for a run relative to that of its first steps: later states need more.
 const MEMORY_MARGIN: f64 = 1.5;
 
 /// Memory in bytes for the files and the picture, which the first steps do not write: 10 MiB were measured.
 const MEMORY_OF_OUTPUT: f64 = 16.0 * 1_048_576.0;
 
-/// Share of the free memory that runs may take.
+/// Fraction of the free memory available to runs.
 const MEMORY_SHARE: f64 = 0.9;
 
-/// Time between two looks at the processes.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
+/// Polling interval of the processes.
+const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// What is to be done.
+/// The work to do.
 #[derive(Debug)]
 pub(crate) struct Work<'a> {
     /// The runs.
     pub runs: &'a [PlannedRun],
-    /// What each is expected to take.
+    /// The expected cost of each.
     pub estimates: &'a [Estimate],
-    /// Where the results go; claimed by the caller.
+    /// Folder of the results; claimed by the caller.
     pub folder: &'a StudyFolder,
     /// This program.
     pub program: &'a Program,
-    /// Threads and runs at once.
+    /// Threads and concurrent runs.
     pub cores: Cores,
-    /// Memory for all runs at once in bytes; absent where it is not known.
+    /// Memory for all concurrent runs in bytes; `None` if not known.
     pub memory: Option<u64>,
-    /// Set by others to stop.
+    /// Set from outside to stop.
     pub interrupt: &'a AtomicBool,
 }
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
-    /// It was complete before.
+    /// It had been complete before.
     WasComplete,
     /// It is complete now.
     Complete,
-    /// It stopped, and can be taken up.
+    /// It stopped, and can be resumed.
     Interrupted,
-    /// It failed: why.
+    /// It failed, for this reason.
     Failed(String),
 }
 
-/// What happened.
+/// Progress of the study.
 #[derive(Debug)]
 pub(crate) enum Event<'a> {
-    /// A run was begun or taken up.
+    /// A run was started or resumed.
     Started(&'a Run),
-    /// A run ended after so long.
+    /// A run ended after this time.
     Ended(&'a Run, &'a End, Duration),
 }
 
-/// A process at work.
+/// A running process.
 struct Worker {
     number: usize,
     child: Child,
@@ -86,23 +86,22 @@ struct Worker {
     begun: Instant,
 }
 
-/// Memory that runs may take in bytes, where the system tells: a share of what is free.
+/// Memory in bytes available to runs, if the system reports it: a fraction of the free memory.
 pub(crate) fn free_memory() -> Option<u64> {
     memory::free().map(|free| (free as f64 * MEMORY_SHARE) as u64)
 }
 
-/// Memory that is kept for a run in bytes; 0 where it is not known.
+/// Memory in bytes reserved for a run; 0 if not known.
 pub(crate) fn memory_of(estimate: Option<&Estimate>) -> u64 {
     let known = estimate.and_then(|estimate| estimate.as_ref().ok()).and_then(|trial| trial.memory_bytes);
     known.map_or(0, |bytes| (bytes as f64 * MEMORY_MARGIN + MEMORY_OF_OUTPUT) as u64)
 }
 
-/// Does all runs that are not complete, those that take longest first, and goes on after a failed one. After an interrupt all
-/// processes save their states and end.
+/// Does all incomplete runs, the longest first, and continues after a failed one. After an interrupt all processes save their states and end.
 ///
 /// # Errors
-/// [`FileError`] where a log cannot be written.
-pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
+/// [`FileError`] if a log cannot be written.
+pub(crate) fn work(work: &Work<'_>, progress: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
     let complete = |planned: &PlannedRun| is_complete(&work.folder.run(&planned.run.name), planned);
     let mut ends: Vec<End> =
         work.runs.iter().map(|run| if complete(run) { End::WasComplete } else { End::Interrupted }).collect();
@@ -111,7 +110,7 @@ pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<
     while !(workers.is_empty() && queue.is_empty()) {
         if work.interrupt.load(Ordering::Relaxed) {
             queue.clear();
-            // The closed pipe asks the process to stop.
+            // The closed pipe requests the process to stop.
             workers.iter_mut().for_each(|worker| drop(worker.child.stdin.take()));
         }
         while let Some(&number) = queue.front()
@@ -121,11 +120,11 @@ pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<
             match start(work, number)? {
                 Ok(worker) => {
                     workers.push(worker);
-                    told(&Event::Started(&work.runs[number].run));
+                    progress(&Event::Started(&work.runs[number].run));
                 }
                 Err(why) => {
                     ends[number] = End::Failed(why);
-                    told(&Event::Ended(&work.runs[number].run, &ends[number], Duration::ZERO));
+                    progress(&Event::Ended(&work.runs[number].run, &ends[number], Duration::ZERO));
                 }
             }
         }
@@ -140,15 +139,15 @@ pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<
                 Err(error) => End::Failed(error.to_string()),
             };
             ends[worker.number] = ended;
-            told(&Event::Ended(&work.runs[worker.number].run, &ends[worker.number], worker.begun.elapsed()));
+            progress(&Event::Ended(&work.runs[worker.number].run, &ends[worker.number], worker.begun.elapsed()));
         }
         workers = at_work;
-        std::thread::sleep(BETWEEN_LOOKS);
+        std::thread::sleep(POLLING_INTERVAL);
     }
     Ok(ends)
 }
 
-/// The runs to do; those of unknown duration come first.
+/// The runs to do, longest first; those of unknown duration come before them.
 fn longest_first(work: &Work<'_>, ends: &[End]) -> VecDeque<usize> {
     let seconds = |number: &usize| match work.estimates.get(*number) {
         Some(Ok(trial)) => trial.duration_s,
@@ -159,13 +158,13 @@ fn longest_first(work: &Work<'_>, ends: &[End]) -> VecDeque<usize> {
     open.into()
 }
 
-/// Whether cores and memory are left for one more run.
+/// Whether there are cores and memory for one more run.
 fn has_room(work: &Work<'_>, workers: &[Worker], number: usize) -> bool {
     let taken: Vec<u64> = workers.iter().map(|worker| worker.memory).collect();
     fits(work.cores.jobs, work.memory, &taken, memory_of(work.estimates.get(number)))
 }
 
-/// Whether a run fits beside others of so much memory. One alone always does: what is known of it may be wrong.
+/// Whether a run fits beside others with this memory. A single one is always started: its estimate may be wrong.
 fn fits(jobs: usize, memory: Option<u64>, taken: &[u64], wanted: u64) -> bool {
     let sum: u64 = taken.iter().sum();
     taken.is_empty() || (taken.len() < jobs && memory.is_none_or(|all| sum + wanted <= all))

@@ -1,5 +1,5 @@
-//! What each run would take: particles, memory, time. Found by the first steps of each in a process of its own, and kept
-//! in the study folder for runs that did not change.
+//! The expected cost of each run: particles, memory, time. Estimated from the first steps of each in a separate process, and kept in the study folder for
+//! unchanged runs.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,20 +11,20 @@ use super::run::PlannedRun;
 use crate::io::atomic;
 use crate::run::trial::Trial;
 
-/// What a run takes, or why that is not known.
+/// The expected cost of a run, or why it is not known.
 pub(crate) type Estimate = Result<Trial, String>;
 
-/// How many processes at once, of how many threads.
+/// Number of concurrent processes, and threads of each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Cores {
     /// Threads of each run.
     pub(crate) threads: usize,
-    /// Runs at once.
+    /// Concurrent runs.
     pub(crate) jobs: usize,
 }
 
-/// Estimates of runs in their order. `kept` is a file of earlier ones, which is read where it is there and written where
-/// `write` says so; an interrupt leaves the rest unknown.
+/// Estimates of runs in their order. `kept` is a file of earlier ones, which is read if it exists and written if `write` is set; an interrupt leaves the rest
+/// unknown.
 pub(crate) fn estimates(
     runs: &[PlannedRun],
     program: &Program,
@@ -66,20 +66,20 @@ pub(crate) fn estimates(
         }
     }
     if write && let Ok(text) = serde_json::to_vec_pretty(&known) {
-        // Without it the next start tries again.
+        // Without it, the next start tries again.
         let _ = atomic::write(path, &text);
     }
     estimates
 }
 
-/// The next run that nobody took.
+/// The next run that is not taken.
 fn take<'a>(next: &AtomicUsize, runs: &'a [PlannedRun]) -> Option<(usize, &'a PlannedRun)> {
     let number = next.fetch_add(1, Ordering::Relaxed);
     runs.get(number).map(|run| (number, run))
 }
 
 fn read(path: &Path) -> BTreeMap<String, Trial> {
-    // A file that is missing or damaged costs a trial, no more.
+    // A missing or damaged file only costs another trial.
     std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
 }
 

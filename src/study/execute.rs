@@ -1,4 +1,4 @@
-//! One run of a study: begun, taken up where it stopped, or left alone where it is complete.
+//! One run of a study: started, resumed, or left alone if it is complete.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -17,13 +17,13 @@ use crate::run::report::{REPORT, Report, Status};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
 
-/// A run that cannot be done.
+/// Why a run cannot be done.
 #[derive(Debug, thiserror::Error)]
 pub enum ExecuteError {
     /// The study folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// No solver, with the places in the case file.
+    /// No solver, with the locations in the case file.
     #[error(transparent)]
     Setup(#[from] InputError),
     /// The run.
@@ -31,10 +31,10 @@ pub enum ExecuteError {
     Run(#[from] RunError),
 }
 
-/// Does a run. A saved state of the same case is taken up; what is left of another case is removed.
+/// Does a run. A saved state of the same case is resumed; the files of another case are removed.
 ///
 /// # Errors
-/// [`ExecuteError`]; a solver that fails is no error here.
+/// [`ExecuteError`]; a failing solver is not an error here.
 pub(crate) fn run(
     planned: &PlannedRun,
     folder: &StudyFolder,
@@ -55,7 +55,7 @@ pub(crate) fn run(
             Err(ExecuteError::Run(RunError::Folder(error @ RunFolderError::InUse { .. }))) => {
                 return Err(ExecuteError::Run(RunError::Folder(error)));
             }
-            // A state of another case or version of the program, or a damaged one: the run begins anew.
+            // A state of another case or version of the program, or a damaged one: the run starts anew.
             Err(ExecuteError::Run(RunError::State(_) | RunError::Folder(_))) => {}
             other => return other,
         }
@@ -111,7 +111,7 @@ fn compared(
     }
 }
 
-/// What is wrong with a case that no solver can be made for, with the places in its file.
+/// Why no solver can be made for a case, with the locations in its file.
 fn refused(planned: &PlannedRun, error: &SetupError) -> ExecuteError {
     planned.document.refuse(error.problems()).err().unwrap_or(InputError { mistakes: Vec::new() }).into()
 }
@@ -124,7 +124,7 @@ fn ending(report: &Report) -> End {
     }
 }
 
-/// What removing a file or folder gave; there may be none.
+/// The result of a removal; the file or folder may not exist.
 fn gone(path: &Path, removed: std::io::Result<()>) -> Result<(), FolderError> {
     match removed {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::write(path)(error).into()),

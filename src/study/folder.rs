@@ -1,8 +1,7 @@
-//! The folder of a study: where things are in it, and who may work in it.
+//! The folder of a study: its layout, and access to it.
 //!
-//! `study.lock` says that a folder is that of a study. A process that does all runs holds it alone, processes that do one
-//! run each hold it together; each run has a lock of its own. The locks are those of the operating system, which takes them
-//! back when a process ends, however it ends: none is ever left over.
+//! `study.lock` marks a folder as that of a study. A process that does all runs has it exclusively, processes that do one run each share it; each run has its
+//! own lock. The locks are those of the operating system, which releases them when a process ends, however it ends: none is ever left over.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, Write};
@@ -16,10 +15,10 @@ use crate::io::{FileError, atomic};
 /// Name of the lock.
 const LOCK: &str = "study.lock";
 
-/// Time between two looks at a lock that another process holds.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+/// Polling interval of a lock held by another process.
+const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 
-/// A study folder that cannot be used.
+/// Why a study folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// There are other files in it.
@@ -30,7 +29,7 @@ pub enum FolderError {
     InUse {
         /// The folder.
         folder: PathBuf,
-        /// Who, where that is known.
+        /// Who, if known.
         by: String,
     },
     /// It cannot be locked.
@@ -38,7 +37,7 @@ pub enum FolderError {
     Lock {
         /// The lock.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// It cannot be read or written.
@@ -52,28 +51,28 @@ pub(crate) struct StudyFolder {
     root: PathBuf,
 }
 
-/// The right to work in a folder or at a run; it ends when this is dropped.
+/// Exclusive or shared access to a folder or a run; it ends when this is dropped.
 #[derive(Debug)]
 pub struct Claim {
     _lock: File,
 }
 
-/// How many processes may hold a lock at once.
+/// Mode of a lock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Share {
-    /// This one only.
+    /// Exclusive.
     Alone,
-    /// All that ask for it so.
+    /// Shared.
     Together,
 }
 
 impl StudyFolder {
-    /// The folder at a path; nothing is read or made.
+    /// The folder at a path; nothing is read or created.
     pub(crate) fn new(root: &Path) -> Self {
         Self { root: root.to_path_buf() }
     }
 
-    /// The folder of a study: the one that was named, or `out/study-NAME`.
+    /// The folder of a study: the given one, or `out/study-NAME`.
     pub(crate) fn of(study: &Study, out: Option<&Path>) -> Self {
         Self { root: out.map_or_else(|| Path::new("out").join(Self::name_of(study)), Path::to_path_buf) }
     }
@@ -93,23 +92,23 @@ impl StudyFolder {
         self.root.join("runs").join(name)
     }
 
-    /// What a run says.
+    /// The log of a run.
     pub(crate) fn log(&self, name: &str) -> PathBuf {
         self.root.join("logs").join(format!("{name}.log"))
     }
 
-    /// What runs are expected to take.
+    /// The estimated cost of runs.
     pub(crate) fn estimates(&self) -> PathBuf {
         self.root.join("estimates.json")
     }
 
-    /// Makes the folder where it is missing, and takes the right to work in it.
+    /// Creates the folder if it is missing, and acquires access to it.
     pub(crate) fn claim(&self, share: Share) -> Result<Claim, FolderError> {
         let path = self.root.join(LOCK);
         if !path.exists() {
             atomic::make_folder(&self.root)?;
             let mut entries = fs::read_dir(&self.root).map_err(FileError::read(&self.root))?;
-            // Another process may have made the lock just now.
+            // Another process may have created the lock just now.
             if entries.next().is_some() && !path.exists() {
                 return Err(FolderError::Foreign(self.root.clone()));
             }
@@ -117,20 +116,20 @@ impl StudyFolder {
         let mut file = open(&path)?;
         if !try_lock(&file, share, &path)? {
             let mut by = String::new();
-            // Only to be told: without it the message is shorter.
+            // For the message only: without it, the message is shorter.
             let _ = file.read_to_string(&mut by);
             let by = if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) };
             return Err(FolderError::InUse { folder: self.root.clone(), by });
         }
         if share == Share::Alone {
-            // Only to be told, as above.
+            // For the message only, as above.
             let _ = file.set_len(0).and_then(|()| file.rewind());
             let _ = writeln!(file, "process {}", std::process::id());
         }
         Ok(Claim { _lock: file })
     }
 
-    /// Takes the right to work at a run; waits while another process does, `None` where it was interrupted meanwhile.
+    /// Acquires access to a run; waits while another process has it, `None` if interrupted meanwhile.
     pub(crate) fn claim_run(&self, name: &str, interrupt: &AtomicBool) -> Result<Option<Claim>, FolderError> {
         let path = self.root.join("locks").join(name);
         atomic::make_folder(&self.root.join("locks"))?;
@@ -139,7 +138,7 @@ impl StudyFolder {
             if interrupt.load(Ordering::Relaxed) {
                 return Ok(None);
             }
-            std::thread::sleep(BETWEEN_LOOKS);
+            std::thread::sleep(POLLING_INTERVAL);
         }
         Ok(Some(Claim { _lock: file }))
     }

@@ -15,13 +15,13 @@ use crate::input::{Checker, Document, InputError, Overrides};
 /// Most runs of a study.
 const MOST_RUNS: usize = 10_000;
 
-/// Compared states where the study file does not say how many, as in `meniscus compare`.
+/// Default number of compared states, as in `meniscus compare`.
 const RECORDS: usize = 100;
 
 /// Most compared states: each is kept in memory cell by cell.
 const MOST_RECORDS: usize = 10_000;
 
-/// Names of columns of the table that a parameter must not have, besides the numbers of a run.
+/// Reserved column names of the table, besides the numbers of a run.
 const TAKEN: [&str; 2] = ["run", "status"];
 
 /// The JSON schema of a study file.
@@ -55,7 +55,7 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let compare = comparison(&mut checker, raw.compare.as_ref(), folder);
     let set = assignments(&mut checker, raw.set.as_deref().unwrap_or_default());
     check_keys(&mut checker, &axes, &set);
-    // A parameter of an axis that is wrong would seem unknown.
+    // A parameter of an invalid axis would seem unknown.
     let names = Names { axes: &axes, complete: all_axes };
     let expectations = raw.expect.iter().flatten().enumerate();
     let expectations: Vec<Option<Expectation>> =
@@ -79,7 +79,7 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     Ok(Study { name, title, case, compare, set, axes, sampling, expectations, trends, report, document })
 }
 
-/// The axes, those with a distribution joined to one where the first of them stands; none for each that has a mistake.
+/// The axes, those with a distribution merged into one at the position of the first of them; `None` for each that has a mistake.
 fn read_axes(checker: &mut Checker, raw: &RawStudy, folder: &Path) -> (Vec<Option<Axis>>, Option<Sampling>) {
     let written = raw.axis.as_deref().unwrap_or_default();
     let samples = sampled(checker, written, raw.sampling.as_ref());
@@ -100,12 +100,12 @@ fn read_axes(checker: &mut Checker, raw: &RawStudy, folder: &Path) -> (Vec<Optio
 }
 
 /// The key path of the axis of a parameter: `axis[2]` of `axis[2].values[0]`.
-fn place_of(column: &Column) -> &str {
+fn axis_path(column: &Column) -> &str {
     let origin = column.origins.first().map_or("axis", String::as_str);
     origin.find(']').map_or(origin, |end| &origin[..=end])
 }
 
-/// What the cases are compared with, where the file says so.
+/// The network of the comparison, if the file has one.
 fn comparison(checker: &mut Checker, raw: Option<&RawComparison>, folder: &Path) -> Option<ComparisonPlan> {
     let raw = raw?;
     let records = raw.records.unwrap_or(RECORDS);
@@ -116,18 +116,18 @@ fn comparison(checker: &mut Checker, raw: Option<&RawComparison>, folder: &Path)
     Some(ComparisonPlan { network: folder.join(raw.network.as_ref()?), records })
 }
 
-/// Refuses parameters of one name and too many runs.
+/// Refuses duplicate parameter names and too many runs.
 fn check_axes(checker: &mut Checker, axes: &[Axis]) {
-    let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut taken: BTreeMap<&str, &str> = BTreeMap::new();
     for column in axes.iter().flat_map(|axis| &axis.columns) {
-        let at = place_of(column);
+        let at = axis_path(column);
         let name = column.name.as_str();
         let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
         if !is_bare {
             checker.refuse(at, format!("`{name}` is not a name of a parameter"), "letters, digits, `-` and `_`");
         } else if TAKEN.contains(&name) || RUN_NUMBERS.contains(&name) {
             checker.refuse(at, format!("`{name}` is the name of a column of the report"), "give another `name`");
-        } else if let Some(other) = seen.insert(name, at) {
+        } else if let Some(other) = taken.insert(name, at) {
             let help = "give one of them another `name`";
             checker.refuse(at, format!("two parameters are called `{name}`, the other one in {other}"), help);
         }
@@ -139,7 +139,7 @@ fn check_axes(checker: &mut Checker, axes: &[Axis]) {
     }
 }
 
-/// Reads the fixed values, each at its place.
+/// Reads the fixed values, each with its location.
 fn assignments(checker: &mut Checker, texts: &[String]) -> Vec<Assignment> {
     let mut all = Vec::new();
     for (index, text) in texts.iter().enumerate() {
@@ -152,14 +152,14 @@ fn assignments(checker: &mut Checker, texts: &[String]) -> Vec<Assignment> {
     all
 }
 
-/// Refuses keys that are no key paths, and keys that are given twice.
+/// Refuses malformed key paths, and duplicate keys.
 fn check_keys(checker: &mut Checker, axes: &[Axis], set: &[Assignment]) {
     let mut seen: Vec<&str> =
         set.iter().filter_map(|one| one.text.split_once('=')).map(|(key, _)| key.trim()).collect();
     for axis in axes {
         for column in &axis.columns {
             let Target::Keys(keys) = &column.target else { continue };
-            let at = place_of(column);
+            let at = axis_path(column);
             for key in keys {
                 if Overrides::parse(&[format!("{key}=0")]).is_err() {
                     checker.refuse(at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");

@@ -1,6 +1,6 @@
-//! Whether the runs of a study measure what it names: expectations and trends, curves and the table.
+//! Whether the runs of a study have the measures that it names: in expectations and trends, curves and the table.
 //!
-//! A measure that is expected of runs must be one of each of them; what the report shows must be one of some run.
+//! All runs must have a measure that is expected of them; for the report, one run is sufficient.
 
 use super::definition::{Choice, Study};
 use super::results::RUN_NUMBERS;
@@ -8,7 +8,7 @@ use super::run::PlannedRun;
 use crate::case::measures::{offer_of_comparison, offers, unmeasured};
 use crate::input::Problem;
 
-/// Names of measures that the runs do not have, each at its place in the study file.
+/// Names of measures that the runs do not have, each with its location in the study file.
 pub(super) fn problems(study: &Study, planned: &[PlannedRun]) -> Vec<Problem> {
     let names = Names { study, planned };
     let expected = study.expectations.iter().enumerate();
@@ -38,7 +38,7 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// What is wrong with the name in one run; parameters and numbers of the run are no measures of its case.
+    /// What is wrong with the name in one run; parameters and numbers of the run are not measures of its case.
     fn wrong(&self, name: &str, planned: &PlannedRun) -> Option<(String, String)> {
         let is_known = RUN_NUMBERS.contains(&name) || self.study.parameters().any(|column| column.name == name);
         let case = &planned.case;
@@ -49,7 +49,7 @@ impl Names<'_> {
         if is_known { None } else { unmeasured(name, &offers()) }
     }
 
-    /// The problem of a measure that one of the chosen runs does not have.
+    /// The problem of a measure that one of the selected runs does not have.
     fn of_each(&self, path: String, name: &str, only: &Choice) -> Option<Problem> {
         let chosen: Vec<&PlannedRun> = self.planned.iter().filter(|planned| planned.run.is_in(only)).collect();
         let (run, (message, help)) = chosen.iter().find_map(|planned| Some((planned, self.wrong(name, planned)?)))?;

@@ -1,4 +1,4 @@
-//! A study without a case and results without runs, for tests of what is made of them.
+//! A study without a case and results without runs, for tests.
 
 use super::definition::Study;
 use super::load::load;
@@ -7,7 +7,7 @@ use super::run::Run;
 use super::runs::runs;
 use crate::run::report::{Motion, Reading, Status};
 
-/// A study of these axes, expectations and curves.
+/// A study with these axes, expectations and curves.
 pub(crate) fn study(text: &str) -> Study {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mock.toml");
@@ -15,13 +15,13 @@ pub(crate) fn study(text: &str) -> Study {
     load(&path).unwrap_or_else(|error| panic!("{}", error.render()))
 }
 
-/// Lets the measure `m` of a complete run move at a rate in degrees per s.
+/// Gives the measure `m` of a complete run a rate of change in degrees per s.
 pub(crate) fn set_moving(result: &mut RunResult, rate: f64) {
     let Standing::Complete(report) = &mut result.standing else { panic!("complete") };
     report.measures.get_mut("m").unwrap().not_at_rest = Some(Motion { rate, unit: "deg/s".into() });
 }
 
-/// Complete runs whose measure `m` in degrees is what `value` says, with an uncertainty of 0.1; NaN is not measured.
+/// Complete runs with the measure `m` in degrees given by `value`, with an uncertainty of 0.1; NaN is not measured.
 pub(crate) fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunResult> {
     let result = |run: Run| {
         let value = Some(value(&run)).filter(|value| value.is_finite());

@@ -1,10 +1,9 @@
 //! Parameter studies: from a study file to many runs, a table, curves and a page.
 //!
-//! [`load`] reads a study file into a [`definition::Study`]; [`runs`] makes its [`run`]s and checks their cases; [`estimate`] tells what
-//! each will take; [`execute`] does one of them, or a [`comparison`] of its case with a network, and [`engine`] all, each in a process of its own; [`slurm`]
-//! hands them to a cluster, and a Python program to its workers ([`numbered`], [`session`]). [`results`] reads their reports back, [`convergence`] and
-//! [`verdict`] judge them, and [`report`] writes [`table`]s, [`curve`]s and the [`page`]. Nothing here knows a solver or a model: a study is a matter of case
-//! files, folders and reports.
+//! [`load`] reads a study file into a [`definition::Study`]; [`runs`] generates its [`run`]s and checks their cases; [`estimate`] estimates the cost of each;
+//! [`execute`] does one of them, or a [`comparison`] of its case with a network, and [`engine`] all, each as a process; [`slurm`] submits them to a cluster,
+//! and a Python program to its workers ([`numbered`], [`session`]). [`results`] reads their reports back, [`convergence`] and [`verdict`] evaluate them, and
+//! [`report`] writes [`table`]s, [`curve`]s and the [`page`]. Independent of solvers and models: a study consists of case files, folders and reports.
 
 mod axis;
 mod base_case;

@@ -1,4 +1,4 @@
-//! What a study file says of measures: expectations, trends and curves, which name parameters by the names of the axes.
+//! Measures in a study file: expectations, trends and curves, which refer to parameters by the names of the axes.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use super::values::{number_of, same, shown};
 use crate::input::tables::Key;
 use crate::input::{Checker, nearest};
 
-/// The parameters, by which expectations and curves name values.
+/// The parameters that expectations and curves can refer to.
 pub(super) struct Names<'a> {
     /// The axes.
     pub(crate) axes: &'a [Axis],
-    /// Whether all axes were understood.
+    /// Whether all axes are valid.
     pub(crate) complete: bool,
 }
 
@@ -27,7 +27,7 @@ impl Names<'_> {
         self.axes.iter().flat_map(|axis| &axis.columns).find(|column| column.name == name).map(|c| c.values.as_slice())
     }
 
-    /// Whether all values of a parameter are numbers; true where that is not known.
+    /// Whether all values of a parameter are numbers; true if not known.
     fn is_numeric(&self, name: &str) -> bool {
         self.values(name).is_none_or(|values| values.iter().all(|value| number_of(value).is_some()))
     }
@@ -48,7 +48,7 @@ impl Names<'_> {
         Some(name.to_owned())
     }
 
-    /// A parameter that holds numbers.
+    /// A numeric parameter.
     fn numeric(&self, checker: &mut Checker, at: &str, name: &str) -> Option<String> {
         let name = self.parameter(checker, at, name)?;
         if !self.is_numeric(&name) {

@@ -1,4 +1,4 @@
-//! One run of a study by its number, in this process: what a job of a cluster, a worker and the Python package do.
+//! One run of a study by its number, in this process: for a job of a cluster, a worker and the Python package.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -19,28 +19,27 @@ pub struct Numbered {
     folder: StudyFolder,
 }
 
-/// A run that cannot be done.
+/// Why a run cannot be done.
 #[derive(Debug, thiserror::Error)]
 pub enum NumberedError {
     /// Mistakes of the study or of a case.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// There is no run of this number.
+    /// There is no run with this number.
     #[error("the study has {count} runs, there is no run {index}")]
     Absent {
         /// Number of runs.
         count: usize,
-        /// The number asked for.
+        /// The requested number.
         index: usize,
     },
-    /// The run is of another case than the one that was asked for.
+    /// The case of the run is not the requested one.
     #[error("the study or a case was changed while the study ran: run {0} is another one now")]
     Changed(usize),
 }
 
 impl Numbered {
-    /// The run of number `index`, from 1, of the study file at `path`; of the case that `digest` is that of, where it is given. `out` is the folder of the
-    /// study.
+    /// The run with number `index`, from 1, of the study file at `path`; its case must have `digest`, if given. `out` is the folder of the study.
     ///
     /// # Errors
     /// [`NumberedError`].
@@ -48,7 +47,7 @@ impl Numbered {
         let study = load(path)?;
         let all = runs(&study);
         let absent = NumberedError::Absent { count: all.len(), index };
-        let run = index.checked_sub(1).and_then(|place| all.get(place)).ok_or(absent)?;
+        let run = index.checked_sub(1).and_then(|position| all.get(position)).ok_or(absent)?;
         let planned = run.plan(&study)?;
         if digest.is_some_and(|digest| digest != planned.digest()) {
             return Err(NumberedError::Changed(index));
@@ -66,18 +65,18 @@ impl Numbered {
         self.folder.run(self.name())
     }
 
-    /// Takes the right to work in the study beside others that do one run each.
+    /// Acquires shared access to the study, for processes that do one run each.
     ///
     /// # Errors
-    /// The folder cannot be used, or a process that does all runs holds it.
+    /// The folder cannot be used, or a process that does all runs has it.
     pub fn claim(&self) -> Result<Claim, ExecuteError> {
         Ok(self.folder.claim(Share::Together)?)
     }
 
-    /// Does the run. A saved state of the same case is taken up.
+    /// Does the run. A saved state of the same case is resumed.
     ///
     /// # Errors
-    /// [`ExecuteError`]; a solver that fails is no error here.
+    /// [`ExecuteError`]; a failing solver is not an error here.
     pub fn run(&self, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Result<End, ExecuteError> {
         execute::run(&self.planned, &self.folder, interrupt, watcher)
     }

@@ -1,5 +1,4 @@
-//! The page of a study: one HTML file that opens from the disk without a network. Curves stand in it; pictures lie in the
-//! folders of the runs beside it.
+//! The page of a study: one HTML file that opens from the disk without a network. Curves are inline; pictures are in the folders of the runs.
 
 use std::fmt::Write;
 
@@ -13,14 +12,14 @@ use super::verdict::{Judgment, Verdict, digits};
 use crate::io::html::{self, escaped};
 use crate::run::compare::PAGE;
 
-/// What stands on the page.
+/// Content of the page.
 #[derive(Debug)]
 pub(crate) struct Content<'a> {
     /// The study.
     pub(crate) study: &'a Study,
     /// Its runs.
     pub(crate) results: &'a [RunResult],
-    /// The table for people.
+    /// The table for readers.
     pub(crate) table: &'a Table,
     /// The curves as SVG.
     pub(crate) curves: &'a [String],
@@ -28,13 +27,13 @@ pub(crate) struct Content<'a> {
     pub(crate) judgments: &'a [Judgment],
     /// Errors along spacings.
     pub(crate) convergences: &'a [Convergence],
-    /// The capillary pressure curves of all runs in one diagram as SVG, where runs have them.
+    /// The capillary pressure curves of all runs in one diagram as SVG, if runs have them.
     pub(crate) pressures: Option<&'a str>,
-    /// Names of the files of diagrams, a list per run.
+    /// File names of diagrams, a list per run.
     pub(crate) diagrams: &'a [Vec<String>],
-    /// Capillary pressure over saturation of both models as SVG, one per run that was compared with a network and is complete.
+    /// Capillary pressure over saturation of both models as SVG, one per complete run that was compared with a network.
     pub(crate) comparisons: &'a [(&'a RunResult, String)],
-    /// What the samples say, where there are any.
+    /// The statistics of the samples, if there are any.
     pub(crate) uncertainty: Option<&'a Uncertainty<'a>>,
 }
 
@@ -161,7 +160,7 @@ fn caption(result: &RunResult) -> String {
     escaped(&parameters.collect::<Vec<_>>().join(", "))
 }
 
-/// The curves of network and direct simulation of each run; the whole comparison lies in the folder of the run.
+/// The curves of network and direct simulation of each run; the whole comparison is in the folder of the run.
 fn push_comparisons(html: &mut String, comparisons: &[(&RunResult, String)]) {
     html.push_str("<h2>Network and direct simulation</h2>\n<div class=\"diagrams\">\n");
     for (result, curves) in comparisons {
@@ -180,10 +179,10 @@ fn push_diagrams(html: &mut String, results: &[RunResult], diagrams: &[Vec<Strin
         let name = escaped(&result.run.name);
         let _ = writeln!(html, "<h2>{name}</h2>\n<div class=\"diagrams\">");
         for file in files.iter().map(|file| escaped(file)) {
-            let place = format!("runs/{name}/{file}");
+            let link = format!("runs/{name}/{file}");
             let _ = writeln!(
                 html,
-                "<figure><a href=\"{place}\"><img loading=\"lazy\" src=\"{place}\" alt=\"{file}\"></a></figure>"
+                "<figure><a href=\"{link}\"><img loading=\"lazy\" src=\"{link}\" alt=\"{file}\"></a></figure>"
             );
         }
         html.push_str("</div>\n");

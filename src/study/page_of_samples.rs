@@ -1,17 +1,17 @@
-//! The part of the page of a study that tells how sure its results are.
+//! The part of the page of a study on the uncertainty of its results.
 
 use super::ensemble::bands::Figures;
 use super::ensemble::statistics::Statistics;
 use crate::io::html::escaped;
 
-/// What the samples say.
+/// The statistics and figures of the samples.
 #[derive(Debug)]
 pub(crate) struct Uncertainty<'f> {
-    /// Quantiles, indices and how they settle.
+    /// Quantiles, indices and their convergence.
     pub(crate) statistics: Statistics,
-    /// The distribution of the saturation at breakthrough as SVG, where runs have one.
+    /// The distribution of the saturation at breakthrough as SVG, if runs have one.
     pub(crate) distribution: Option<String>,
-    /// Bands and maps, a part for each combination of the other axes; none where runs are processes.
+    /// Bands and maps, a part for each combination of the other axes; empty if runs are processes.
     pub(crate) figures: &'f [Figures],
 }
 

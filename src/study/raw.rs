@@ -1,4 +1,4 @@
-//! The keys of a study file, as written: all optional, nothing checked but names and types.
+//! The keys of a study file, as written: all optional; only names and types are checked.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use crate::input::Range;
 use crate::input::tables::{Key, Value, tables};
 
 tables! {
-    /// A study file: one or more base cases, what varies, what must come out, what is shown.
+    /// A study file: one or more base cases, what varies, what is expected, what is shown.
     pub(crate) struct RawStudy {
         /// Version of the format: 1 (required).
         pub format: u32 => Key::required("format = 1"),
@@ -25,13 +25,13 @@ tables! {
         pub sampling: RawSampling,
         /// Measures expected of every run.
         pub expect: Vec<RawExpectation>,
-        /// Errors that must fall with a parameter.
+        /// Errors that must decrease with a parameter.
         pub trend: Vec<RawTrend>,
         /// Contents of the report.
         pub report: RawReport,
     }
 
-    /// What the case is compared with.
+    /// The network that the case is compared with.
     pub(crate) struct RawComparison {
         /// Case of the network, relative to the study file (required).
         pub network: PathBuf => Key::required("network = \"../cases/network/compare.toml\""),
@@ -43,13 +43,13 @@ tables! {
     pub(crate) struct RawSampling {
         /// Number of samples, 2 to 10 000; a power of two makes the most of the sequence (required).
         pub count: usize => Key::required("count = 256"),
-        /// Chooses the samples: the same ones on every machine (default 1).
+        /// Seed of the samples: the same ones on every machine (default 1).
         pub seed: u32,
-        /// Estimates first-order and total Sobol indices, which takes (inputs + 2) `count` runs (default false).
+        /// Estimates first-order and total Sobol indices, which needs (inputs + 2) `count` runs (default false).
         pub indices: bool,
         /// Correlations between inputs, by a Gaussian copula; inputs that are not named are independent.
         pub correlation: Vec<RawCorrelation>,
-        /// Runs samples of networks as processes too, each with a folder of output (default false).
+        /// Runs samples of networks as processes, too, each with an output folder (default false).
         pub processes: bool,
     }
 
@@ -61,27 +61,27 @@ tables! {
         pub value: f64 => Key::number("a correlation", Range::Between(-1.0, 1.0)).example("value = 0.5"),
     }
 
-    /// How an uncertain value is distributed; exactly one of these.
+    /// Distribution of an uncertain value; exactly one of these.
     pub(crate) struct RawDistribution {
-        /// A normal distribution, truncated where ends are given.
+        /// A normal distribution, truncated if bounds are given.
         pub normal: RawNormal,
         /// A lognormal distribution: its logarithm is normal.
         pub lognormal: RawLognormal,
-        /// Every value between two ends is equally likely.
+        /// A uniform distribution between two bounds.
         pub uniform: RawUniform,
-        /// A density that rises linearly to its mode and falls linearly behind it.
+        /// A density that rises linearly to its mode and falls linearly after it.
         pub triangular: RawTriangular,
     }
 
     /// A normal distribution.
     pub(crate) struct RawNormal {
-        /// Mean, before it is truncated (required).
+        /// Mean, before truncation (required).
         pub mean: f64 => Key::required("mean = 40.0"),
-        /// Standard deviation, before it is truncated (required).
+        /// Standard deviation, before truncation (required).
         pub deviation: f64 => Key::positive("a standard deviation").example("deviation = 5.0"),
-        /// No value lies below (default: none).
+        /// Lower bound (default: none).
         pub at_least: f64,
-        /// No value lies above (default: none).
+        /// Upper bound (default: none).
         pub at_most: f64,
     }
 
@@ -111,29 +111,29 @@ tables! {
         pub to: f64 => Key::required("to = 0.08"),
     }
 
-    /// What varies: one key with `values`, a `range` or a `distribution`, several keys that vary together (`pair`), the rows of a CSV file
-    /// (`table`), or several base cases (`cases`).
+    /// What varies: one key with `values`, a `range` or a `distribution`, several keys that vary together (`pair`), the rows of a CSV file (`table`), or
+    /// several base cases (`cases`).
     pub(crate) struct RawAxis {
         /// Name of the parameter: letters, digits, `-` and `_` (default: last part of the key).
         pub name: String,
         /// Key path in the case file, as in `--set`; with `values`, `range` or `distribution`.
         pub key: String,
-        /// Further key paths that take the same values.
+        /// Further key paths that are set to the same values.
         pub also: Vec<String>,
         /// Values of the key.
         #[schemars(with = "Option<Vec<serde_json::Value>>")]
         pub values: Vec<toml::Value>,
         /// Values of the key as a range of numbers.
         pub range: RawRange,
-        /// Distribution of an uncertain value of the key; `[sampling]` says how many samples are drawn.
+        /// Distribution of an uncertain value of the key; `[sampling]` gives the number of samples.
         pub distribution: RawDistribution,
-        /// Parameters that vary together, with equally many values.
+        /// Parameters that vary together, with the same number of values.
         pub pair: Vec<RawColumn>,
         /// CSV file with a header line: a run per row, a parameter per column; `#` begins a comment.
         pub table: PathBuf,
-        /// Key path of each CSV column; other columns are numbers to compare with.
+        /// Key path of each CSV column; other columns are numbers for comparison only.
         pub columns: BTreeMap<String, String>,
-        /// Base cases in place of `case`; default parameter name `case`.
+        /// Base cases instead of `case`; default parameter name `case`.
         pub cases: Vec<PathBuf>,
     }
 
@@ -141,9 +141,9 @@ tables! {
     pub(crate) struct RawColumn {
         /// Name of the parameter (default: last part of the key).
         pub name: String,
-        /// Key path in the case file; a parameter without a key is a number to compare with.
+        /// Key path in the case file; a parameter without a key is a number for comparison only.
         pub key: String,
-        /// Further key paths that take the same values.
+        /// Further key paths that are set to the same values.
         pub also: Vec<String>,
         /// Values of the key.
         #[schemars(with = "Option<Vec<serde_json::Value>>")]
@@ -152,7 +152,7 @@ tables! {
         pub range: RawRange,
     }
 
-    /// Numbers from one to another, both included.
+    /// Numbers from the first to the last, both included.
     pub(crate) struct RawRange {
         /// First number (required).
         pub from: f64 => Key::required("from = 1.0"),
@@ -160,11 +160,11 @@ tables! {
         pub to: f64 => Key::required("to = 2.0"),
         /// Number of values, at least 2 (required).
         pub count: usize => Key::required("count = 3"),
-        /// Equal steps or equal ratios (default `linear`).
+        /// Linear or logarithmic steps (default `linear`).
         pub scale: RawScale,
     }
 
-    /// A measure that must come out as said.
+    /// An expected measure.
     pub(crate) struct RawExpectation {
         /// Name of a measure (required).
         pub measure: String => Key::required("measure = \"contact-angle-deg\""),
@@ -180,19 +180,18 @@ tables! {
         pub only: BTreeMap<String, toml::Value>,
     }
 
-    /// An error that must fall as a parameter falls.
+    /// An error that must decrease with a parameter.
     pub(crate) struct RawTrend {
         /// Name of a measure (required).
         pub measure: String => Key::required("measure = \"contact-angle-deg\""),
         /// Ideal value, number or name of a parameter (default 0).
         #[schemars(with = "Option<serde_json::Value>")]
         pub reference: toml::Value,
-        /// Parameter with which the error must fall, usually a spacing (required).
+        /// Parameter with which the error must decrease, usually a spacing (required).
         pub along: String => Key::required("along = \"spacing\""),
         /// Smallest accepted order: least-squares slope of log error over log parameter.
         pub order: f64,
-        /// Error that counts as converged, as other causes leave it: errors below it need not fall and do not count for the
-        /// order (default 0).
+        /// Error that counts as converged, due to other causes: errors below it need not decrease and do not count for the order (default 0).
         pub floor: f64 => Key::positive("an error, in the unit of the measure,"),
         /// Parameter values of the runs that count (default: all runs).
         #[serde(rename = "where")]
@@ -237,7 +236,7 @@ tables! {
 const GEOMETRIC_DEVIATION: Key =
     Key::number("a geometric standard deviation", Range::Above(1.0)).example("geometric-deviation = 1.5");
 
-/// Equal steps or equal ratios.
+/// Linear or logarithmic steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RawScale {

@@ -1,4 +1,4 @@
-//! The report of a study: tables, curves and the page, from what stands in its folder.
+//! The report of a study: tables, curves and the page, from the content of its folder.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -23,10 +23,10 @@ use crate::io::{FileError, atomic};
 use crate::run::compare::CURVES;
 use crate::run::pressure_curves;
 
-/// A report that cannot be written.
+/// Why a report cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// A file.
+    /// A file error.
     #[error(transparent)]
     File(#[from] FileError),
     /// A curve.
@@ -40,9 +40,9 @@ pub enum ReportError {
 /// A report as written.
 #[derive(Debug)]
 pub(crate) struct StudyReport {
-    /// The runs and where they stand.
+    /// The runs and their states.
     pub(crate) results: Vec<RunResult>,
-    /// The table for people, of samples their quantiles.
+    /// The table for readers; with samples, their quantiles.
     pub(crate) table: Table,
     /// The table for programs.
     pub(crate) csv: PathBuf,
@@ -50,15 +50,15 @@ pub(crate) struct StudyReport {
     pub(crate) judgments: Vec<Judgment>,
     /// Errors along spacings, with their orders.
     pub(crate) convergences: Vec<Convergence>,
-    /// Complete runs with a shown measure that is not at rest.
+    /// Number of complete runs with a shown measure that is not at rest.
     pub(crate) moving: usize,
-    /// Names in the study file that are neither a parameter nor a measure of its runs, with a way out.
+    /// Names in the study file that are neither a parameter nor a measure of its runs, with a remedy.
     pub(crate) unknown: Vec<String>,
     /// The page.
     pub(crate) page: PathBuf,
 }
 
-/// The diagrams that a complete run left in its folder, by name.
+/// The diagrams in the folder of a complete run, by name.
 fn diagrams_of(folder: &Path, standing: &Standing) -> Vec<String> {
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let names = files.filter_map(|file| file.file_name().into_string().ok());
@@ -75,14 +75,14 @@ fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder
     complete.map(|result| (result, curves(result).unwrap_or_default())).collect()
 }
 
-/// The capillary pressure curves of all complete runs, each named by the values in which runs differ; none where fewer than two have one.
+/// The capillary pressure curves of all complete runs, each named by the values in which runs differ; `None` if fewer than two have one.
 fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Result<Option<String>, ReportError> {
     let varies = |name: &str| results.iter().any(|result| result.run.value(name) != results[0].run.value(name));
     let name = |result: &RunResult| {
-        // One column tells the value of an axis.
+        // One column identifies the value of an axis.
         let columns = study.axes.iter().filter_map(|axis| axis.columns.first()).map(|column| column.name.as_str());
-        let told = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
-        columns.filter(|name| varies(name)).filter_map(told).collect::<Vec<_>>().join(", ")
+        let assignment = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
+        columns.filter(|name| varies(name)).filter_map(assignment).collect::<Vec<_>>().join(", ")
     };
     let complete = results.iter().filter(|result| study.compare.is_none() && result.standing.report().is_some());
     let runs: Vec<(String, PathBuf)> = complete.map(|result| (name(result), folder.run(&result.run.name))).collect();
@@ -95,7 +95,7 @@ pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -
     report_of(study, results(runs, folder), folder, &[])
 }
 
-/// Writes the tables of samples and tells what the page shows of them; none where nothing is sampled.
+/// Writes the tables of samples and returns their part of the page; `None` if nothing is sampled.
 fn uncertainty<'f>(
     study: &Study,
     results: &[RunResult],
@@ -113,7 +113,7 @@ fn uncertainty<'f>(
     Ok(Some(Uncertainty { statistics, distribution, figures }))
 }
 
-/// Writes the same of runs that stand so, with `figures` of an ensemble; of samples `samples.csv` in place of `table.csv`, and tables of their statistics.
+/// The same for runs with known states and `figures` of an ensemble; with samples, `samples.csv` replaces `table.csv`, with tables of statistics.
 pub(crate) fn report_of(
     study: &Study,
     results: Vec<RunResult>,
@@ -158,14 +158,14 @@ pub(crate) fn report_of(
         convergences: &convergences,
         uncertainty: uncertainty.as_ref(),
     };
-    let place = path("report.html");
-    atomic::write(&place, page(&content).as_bytes())?;
+    let page_path = path("report.html");
+    atomic::write(&page_path, page(&content).as_bytes())?;
     let unknown = unknown(study, &results);
     let moving = moving(&results, &table::shown_measures(study, &results));
-    Ok(StudyReport { moving, results, table, csv, judgments, convergences, unknown, page: place })
+    Ok(StudyReport { moving, results, table, csv, judgments, convergences, unknown, page: page_path })
 }
 
-/// Names that no run has; which measures there are is known when a run is complete.
+/// Names that no run has; the measures of a run are known once it is complete.
 fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
     let there = measures(results);
     if there.is_empty() {
@@ -179,11 +179,11 @@ fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
     let names: BTreeSet<&str> = expected.chain(trends).chain(curves).chain(table).map(String::as_str).collect();
     let is_parameter = |name: &str| study.parameters().any(|column| column.name == name);
     let lost = names.into_iter().filter(|name| !known.contains(name) && !is_parameter(name));
-    let told = |name: &str| match nearest(name, known.iter().copied()) {
+    let message = |name: &str| match nearest(name, known.iter().copied()) {
         Some(near) => format!("no run has the measure `{name}`; did you mean `{near}`?"),
         None => format!("no run has the measure `{name}`"),
     };
-    lost.map(told).collect()
+    lost.map(message).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! How uncertain measures are by their spacing, told by runs that differ in nothing else.
+//! Uncertainty of measures due to the spacing, from runs that are otherwise equal.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use super::results::{RUN_NUMBERS, RunResult, measures};
 use crate::analysis::convergence::discretization_uncertainties;
 use crate::run::report::STEADY_AT;
 
-/// Ends of the names of measures that are errors or counts themselves: what the spacing does to them is no uncertainty.
+/// Suffixes of measures that are errors or counts themselves: their dependence on the spacing is not an uncertainty.
 const ERRORS_AND_COUNTS: [&str; 7] =
     ["-error", "-drift", "-share", "-scatter-ratio", "-distance-ratio", "-pieces", "-blobs"];
 
-/// Whole names of such measures.
+/// Full names of such measures.
 const OTHERS: [&str; 2] = [STEADY_AT, "parasitic-capillary-number"];
 
-/// Standard uncertainties of the measures of runs by their spacing.
+/// Standard uncertainties of the measures of runs due to the spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Resolution {
     /// By measure and number of the run, in the unit of the measure.
@@ -23,7 +23,7 @@ pub(crate) struct Resolution {
 }
 
 impl Resolution {
-    /// That of all measures that at least three spacings of a group have.
+    /// The uncertainties of all measures available at three or more spacings of a group.
     pub(crate) fn of(study: &Study, results: &[RunResult]) -> Self {
         let Some(column) = spacing(study) else { return Self::default() };
         let groups = groups(study, &column.name, results.iter());

@@ -1,4 +1,4 @@
-//! What the runs of a study left in their folders.
+//! The results in the folders of the runs of a study.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,10 +11,10 @@ use crate::io::restart;
 use crate::run::compare::DIRECT_RUN;
 use crate::run::report::{Motion, REPORT, Reading, Status};
 
-/// What is known of a run besides its measures.
+/// Properties of a run besides its measures.
 pub(crate) const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];
 
-/// The report of a run, as far as studies read it.
+/// The report of a run, as far as studies need it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) struct RunReport {
@@ -26,39 +26,39 @@ pub(crate) struct RunReport {
     pub(crate) steps: u64,
     /// Measures by name.
     pub(crate) measures: BTreeMap<String, Reading>,
-    /// The case file with all that was filled in.
+    /// The case file with all defaults filled in.
     pub(crate) resolved_case: String,
     /// Wall time.
     pub(crate) wall_time_s: Total,
-    /// Processor time in s of all processes that worked at it; absent where it is not known.
+    /// Processor time in s of all processes of the run; `None` if not known.
     pub(crate) cpu_s: Option<f64>,
-    /// The solver's work.
+    /// Statistics of the solver.
     pub(crate) solver: Unknowns,
 }
 
-/// Wall time in s of the last process that worked at the run.
+/// Wall time in s of the last process of the run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct Total {
     /// From the start to the report.
     pub(crate) total: f64,
 }
 
-/// What the solver did.
+/// Statistics of the solver.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct Unknowns {
     /// Particles or nodes.
     pub(crate) unknowns: usize,
-    /// Wall time in s without output; not told by older reports.
+    /// Wall time in s without output; missing in older reports.
     #[serde(rename = "wall-time-s", default)]
     pub(crate) wall_time_s: Option<f64>,
 }
 
-/// Where a run stands.
+/// The state of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Standing {
-    /// Nothing was done, or it was done with another case.
+    /// Nothing was done, or only with another case.
     New,
-    /// It was begun.
+    /// It was started.
     Partial,
     /// It failed.
     Failed(Box<RunReport>),
@@ -67,7 +67,7 @@ pub(crate) enum Standing {
 }
 
 impl Standing {
-    /// One word for tables.
+    /// The state in one word, for tables.
     pub(crate) fn word(&self) -> &'static str {
         match self {
             Self::New => "to do",
@@ -86,7 +86,7 @@ impl Standing {
     }
 }
 
-/// Where the run in a folder stands, if it is of the case that `resolved` says.
+/// The state of the run in a folder, if its case is the one given by `resolved`.
 pub(crate) fn standing(folder: &Path, resolved: &str) -> Standing {
     let report: Option<RunReport> =
         std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
@@ -102,24 +102,24 @@ pub(crate) fn standing(folder: &Path, resolved: &str) -> Standing {
     }
 }
 
-/// Whether nothing is left to do for a run in its folder. The picture is drawn after the report, of which a kill may have kept it; the files of a
-/// comparison come before its report.
+/// Whether nothing is left to do for a run in its folder. The picture is drawn after the report, so a kill may have prevented it; the files of a comparison are
+/// written before its report.
 pub(crate) fn is_complete(folder: &Path, planned: &PlannedRun) -> bool {
     let is_drawn = planned.network.is_some() || folder.join("picture.png").exists();
     is_drawn && standing(folder, &planned.resolved).report().is_some()
 }
 
-/// A run with where it stands.
+/// A run with its state.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunResult {
     /// The run.
     pub(crate) run: Run,
-    /// Where it stands.
+    /// Its state.
     pub(crate) standing: Standing,
 }
 
 impl RunResult {
-    /// A parameter that is a number, a measure, or one of [`RUN_NUMBERS`] of a complete run.
+    /// A numeric parameter, a measure, or one of [`RUN_NUMBERS`] of a complete run.
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
             return super::values::number_of(value);
@@ -141,16 +141,16 @@ impl RunResult {
     }
 }
 
-/// Share of a value below which its error is the rounding of its arithmetic.
+/// Fraction of a value below which its error is a rounding error.
 const ROUNDING: f64 = 1.0e-11;
 
 impl RunResult {
-    /// How a measure still moved at the end of its run, where that is by more than its uncertainty.
+    /// How a measure still moved at the end of its run, if by more than its uncertainty.
     pub(crate) fn motion(&self, measure: &str) -> Option<&Motion> {
         self.standing.report()?.measures.get(measure)?.not_at_rest.as_ref()
     }
 
-    /// The error of a measure that is rounding: a share of its value, of its `reference` or, for a pure number, of 1.
+    /// The rounding error of a measure: a fraction of its value, of its `reference` or, for a dimensionless number, of 1.
     pub(crate) fn rounding(&self, measure: &str, reference: f64) -> f64 {
         let reading = self.standing.report().and_then(|report| report.measures.get(measure));
         let one = if reading.is_some_and(|reading| reading.unit.is_empty()) { 1.0 } else { 0.0 };
@@ -158,12 +158,12 @@ impl RunResult {
     }
 }
 
-/// How many complete runs have one of the `measures` not at rest.
+/// Number of complete runs in which one of the `measures` is not at rest.
 pub(crate) fn moving(results: &[RunResult], measures: &[String]) -> usize {
     results.iter().filter(|result| measures.iter().any(|measure| result.motion(measure).is_some())).count()
 }
 
-/// All runs with where they stand.
+/// All runs with their states.
 pub(crate) fn results(runs: &[PlannedRun], folder: &StudyFolder) -> Vec<RunResult> {
     let result = |planned: &PlannedRun| RunResult {
         run: planned.run.clone(),

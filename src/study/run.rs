@@ -1,4 +1,4 @@
-//! A run of a study with its parameters, and its case, which is loaded and checked.
+//! A run of a study with its parameters, and its loaded and checked case.
 
 use std::path::{Path, PathBuf};
 
@@ -12,17 +12,17 @@ use crate::case::{Case, KeptGeometry, Loaded};
 use crate::input::{Document, InputError, Problem};
 use crate::io::checksum::fnv1a;
 
-/// How the message of a mistake in a sampled value begins.
+/// Prefix of the message of a mistake in a sampled value.
 pub(super) const SAMPLE_MISTAKE: &str = "a sample is refused: ";
 
-/// How the place of such a value ends.
+/// Suffix of the key path of such a value.
 const OF_DISTRIBUTION: &str = ".distribution";
 
-/// The way out.
+/// The remedy.
 const IN_RANGE: &str =
     "truncate a normal distribution by `at-least` and `at-most`, or take one that ends within the range";
 
-/// A text that another one follows.
+/// A text that another one continues.
 fn joined(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("{text}; ") }
 }
@@ -45,13 +45,13 @@ pub struct Run {
     pub name: String,
     /// The base case.
     pub case: PathBuf,
-    /// Where the base case is named: a key path in the study file.
+    /// Where the base case is given: a key path in the study file.
     pub case_origin: String,
     /// The parameters.
     pub parameters: Vec<Parameter>,
-    /// What differs from the base case.
+    /// The differences from the base case.
     pub assignments: Vec<Assignment>,
-    /// What it is compared with, where it is.
+    /// The network that it is compared with, if any.
     pub network: Option<NetworkRun>,
 }
 
@@ -62,16 +62,16 @@ pub struct PlannedRun {
     pub run: Run,
     /// The case.
     pub case: Case,
-    /// The case file with all that was filled in; with that of the network where it is compared with one.
+    /// The case file with all defaults filled in; with that of the network if it is compared with one.
     pub resolved: String,
     /// The text of the case file.
     pub document: Document,
-    /// What it is compared with, where it is.
+    /// The network that it is compared with, if any.
     pub network: Option<PlannedNetwork>,
 }
 
 impl PlannedRun {
-    /// Tells whether a run is of this case: the hash of the resolved case.
+    /// Identifies the case of a run: the hash of the resolved case.
     pub fn digest(&self) -> String {
         format!("{:016x}", fnv1a(self.resolved.as_bytes()))
     }
@@ -83,7 +83,7 @@ impl Run {
         self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
     }
 
-    /// The number that a quantity is in this run.
+    /// The value of a quantity in this run.
     pub(crate) fn quantity(&self, quantity: &Quantity) -> Option<f64> {
         match quantity {
             Quantity::Number(number) => Some(*number),
@@ -91,25 +91,25 @@ impl Run {
         }
     }
 
-    /// Whether the run is among those chosen.
+    /// Whether the run is selected.
     pub(crate) fn is_in(&self, choice: &Choice) -> bool {
         choice.0.iter().all(|(name, value)| self.value(name).is_some_and(|found| same(found, value)))
     }
 
-    /// What differs from the base case, as `--set` takes it.
+    /// The differences from the base case in the form of `--set`.
     pub(crate) fn overrides(&self) -> Vec<String> {
         base_case::overrides(&self.assignments)
     }
 
-    /// Loads the case of the run and holds it against its geometry.
+    /// Loads the case of the run and checks it against its geometry.
     ///
     /// # Errors
-    /// All mistakes; those of a value of the study at its place in the study file.
+    /// All mistakes; those of a value of the study with its location in the study file.
     pub fn plan(&self, study: &Study) -> Result<PlannedRun, InputError> {
         self.load(study).map_err(|error| self.placed(study, error))
     }
 
-    /// Loads the case of the run, one of a network, without writing it out; `kept` has the geometry of the run before.
+    /// Loads the case of the run, one of a network, without its resolved text; `kept` has the geometry of the previous run.
     ///
     /// # Errors
     /// As [`plan`](Self::plan).
@@ -130,7 +130,7 @@ impl Run {
         Ok(PlannedRun { run: self.clone(), case, resolved, document, network })
     }
 
-    /// Moves the mistakes of values that the study sets to their places in the study file.
+    /// Relocates the mistakes of values set by the study to the study file.
     fn placed(&self, study: &Study, error: InputError) -> InputError {
         let mut mistakes = Vec::new();
         let of_network = self.network.iter();

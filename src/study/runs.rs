@@ -1,5 +1,4 @@
-//! The runs of a study: every value of an axis with every value of the others, each with a name that tells them, and
-//! each with its case checked.
+//! The runs of a study: every value of an axis combined with every value of the others, each with a descriptive name and its checked case.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +11,10 @@ use super::{comparison, measured};
 use crate::input::{InputError, Mistake};
 use crate::io::checksum::fnv1a;
 
-/// Longest name of a run; file systems take 255 bytes, and files in the folder are named too.
+/// Longest name of a run; file systems allow 255 bytes, and files in the folder have names, too.
 const LONGEST_NAME: usize = 120;
 
-/// Most mistakes that are told.
+/// Most mistakes that are reported.
 const MOST_MISTAKES: usize = 50;
 
 /// All runs of a study; the last axis varies fastest.
@@ -31,23 +30,23 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
     let mut assignments = study.set.clone();
     let mut labels = Vec::new();
     let mut rest = number;
-    let mut places = vec![0; study.axes.len()];
-    for (place, axis) in places.iter_mut().zip(&study.axes).rev() {
-        *place = rest % axis.len().max(1);
+    let mut indices = vec![0; study.axes.len()];
+    for (index, axis) in indices.iter_mut().zip(&study.axes).rev() {
+        *index = rest % axis.len().max(1);
         rest /= axis.len().max(1);
     }
-    for (&place, axis) in places.iter().zip(&study.axes) {
+    for (&index, axis) in indices.iter().zip(&study.axes) {
         for (number, column) in axis.columns.iter().enumerate() {
-            let Some(value) = column.values.get(place) else { continue };
+            let Some(value) = column.values.get(index) else { continue };
             match &column.target {
                 Target::Keys(keys) => {
-                    let origin = column.origins.get(place).cloned().unwrap_or_default();
+                    let origin = column.origins.get(index).cloned().unwrap_or_default();
                     let set = |key: &String| Assignment { text: format!("{key}={value}"), origin: origin.clone() };
                     assignments.extend(keys.iter().map(set));
                 }
                 Target::Case(files) => {
-                    case = files.get(place).cloned().unwrap_or_default();
-                    case_origin = column.origins.get(place).cloned().unwrap_or_default();
+                    case = files.get(index).cloned().unwrap_or_default();
+                    case_origin = column.origins.get(index).cloned().unwrap_or_default();
                 }
                 Target::Nothing => {}
             }
@@ -62,7 +61,7 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
     Run { index: number + 1, name, case, case_origin, parameters, assignments, network }
 }
 
-/// A value as part of the name of a folder: of a path its last part, of an array its numbers.
+/// A value as part of the name of a folder: the last part of a path, the numbers of an array.
 fn label(value: &Value) -> String {
     let text = shown(value);
     let text = if value.is_str() { text.rsplit(['/', '\\']).next().unwrap_or_default() } else { text.as_str() };
@@ -70,7 +69,7 @@ fn label(value: &Value) -> String {
     kept.map(|c| if c.is_ascii_alphanumeric() || "+-.,".contains(c) { c } else { '-' }).collect()
 }
 
-/// The name, cut where it is too long, with a number where it is taken.
+/// The name, truncated if it is too long, with a number if it is taken.
 fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     let name = if name.len() > LONGEST_NAME {
         format!("{}-{:016x}", &name[..LONGEST_NAME], fnv1a(name.as_bytes()))
@@ -79,7 +78,7 @@ fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     };
     let mut candidate = name.clone();
     let mut number = 1;
-    // File systems that do not tell capitals apart must not join two runs.
+    // Runs must stay distinct on case-insensitive file systems.
     while !taken.insert(candidate.to_lowercase()) {
         number += 1;
         candidate = format!("{name}-{number}");
@@ -87,11 +86,11 @@ fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     candidate
 }
 
-/// The mistakes of the cases of many runs, each told once.
+/// The mistakes of the cases of many runs, each reported once.
 #[derive(Default)]
 pub(super) struct Mistakes {
     found: Vec<Mistake>,
-    /// The same mistake of other samples, at the place of a distribution.
+    /// Number of further samples with the same mistake, at the location of a distribution.
     more: Vec<usize>,
 }
 
@@ -119,13 +118,13 @@ impl Mistakes {
     /// # Errors
     /// The mistakes, if there are any.
     pub(super) fn finish(self) -> Result<(), InputError> {
-        let told = |(mut mistake, more): (Mistake, usize)| {
+        let merged = |(mut mistake, more): (Mistake, usize)| {
             if more > 0 {
                 mistake.message += &format!("; {more} more samples are refused here");
             }
             mistake
         };
-        let mistakes: Vec<Mistake> = self.found.into_iter().zip(self.more).map(told).collect();
+        let mistakes: Vec<Mistake> = self.found.into_iter().zip(self.more).map(merged).collect();
         if mistakes.is_empty() { Ok(()) } else { Err(InputError { mistakes }) }
     }
 }
@@ -133,7 +132,7 @@ impl Mistakes {
 /// All runs with their cases checked.
 ///
 /// # Errors
-/// All mistakes of all cases, each told once; then measures that the runs do not have.
+/// All mistakes of all cases, each reported once; then measures that the runs do not have.
 pub fn plan(study: &Study) -> Result<Vec<PlannedRun>, InputError> {
     let (mut planned, mut mistakes) = (Vec::new(), Mistakes::default());
     for run in runs(study) {

@@ -1,4 +1,4 @@
-//! A study whose runs are done elsewhere, by the workers of a Python program say: its runs, and what they left.
+//! A study whose runs are done elsewhere, by the workers of a Python program say: its runs and their results.
 
 use std::path::Path;
 
@@ -21,10 +21,10 @@ pub struct Session {
 }
 
 impl Session {
-    /// Loads a study file and checks the cases of all its runs. `out` is the folder of the study, `out/study-NAME` where there is none.
+    /// Loads a study file and checks the cases of all its runs. `out` is the folder of the study, `out/study-NAME` if `None`.
     ///
     /// # Errors
-    /// All mistakes with their places.
+    /// All mistakes with their locations.
     pub fn open(path: &Path, out: Option<&Path>) -> Result<Self, InputError> {
         let study = load(path)?;
         let runs = plan(&study)?;
@@ -42,7 +42,7 @@ impl Session {
         })
     }
 
-    /// Writes table, curves and page from what the runs left, and tells of each run its `name`, `folder`, `status`, `parameters` and `measures`.
+    /// Writes table, curves and page from the results of the runs, and returns for each run its `name`, `folder`, `status`, `parameters` and `measures`.
     ///
     /// # Errors
     /// [`ReportError`].

@@ -1,4 +1,4 @@
-//! A study as a job array of Slurm: one index per run that is not complete, the same command as on one machine.
+//! A study as a job array of Slurm: one index per incomplete run, the same command as on one machine.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,16 +10,16 @@ use super::folder::StudyFolder;
 use super::run::PlannedRun;
 use crate::io::{FileError, atomic};
 
-/// Seconds before a time limit at which a run is asked to save its state.
+/// Seconds before a time limit at which a run is requested to save its state.
 const NOTICE: u32 = 60;
 
-/// Memory of a run in MiB where it is not known.
+/// Default memory of a run in MiB.
 const MEMORY: u64 = 1024;
 
-/// Least memory of a run in MiB: the shell that starts it needs some too.
+/// Smallest memory of a run in MiB: the shell that starts it needs some, too.
 const LEAST_MEMORY: u64 = 64;
 
-/// An array that cannot be submitted.
+/// Why an array cannot be submitted.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum SlurmError {
     /// The script cannot be written.
@@ -28,7 +28,7 @@ pub(crate) enum SlurmError {
     /// There is no Slurm.
     #[error("`sbatch` cannot be started ({error}); the script is in {}", script.display())]
     NoSbatch {
-        /// What the system said.
+        /// The error of the system.
         error: std::io::Error,
         /// The script.
         script: PathBuf,
@@ -38,29 +38,29 @@ pub(crate) enum SlurmError {
     Refused {
         /// The script.
         script: PathBuf,
-        /// What it said.
+        /// Its message.
         said: String,
     },
 }
 
-/// What goes into an array.
+/// Content of an array.
 #[derive(Debug)]
 pub(crate) struct Array<'a> {
     /// Name of the study.
     pub(crate) name: &'a str,
-    /// The runs that are not complete.
+    /// The incomplete runs.
     pub(crate) runs: &'a [&'a PlannedRun],
-    /// What each of them is expected to take.
+    /// The expected cost of each of them.
     pub(crate) estimates: &'a [Estimate],
-    /// Where the results go.
+    /// Folder of the results.
     pub(crate) folder: &'a StudyFolder,
     /// This program.
     pub(crate) program: &'a Program,
     /// Threads of each run.
     pub(crate) threads: usize,
-    /// How many may run at once; absent for as many as the cluster allows.
+    /// Most concurrent runs; `None` for as many as the cluster allows.
     pub(crate) jobs: Option<usize>,
-    /// Further options of `sbatch`, as they are written in a script.
+    /// Further options of `sbatch`, as in a script.
     pub(crate) options: &'a [String],
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn script(array: &Array<'_>) -> String {
         format!("#SBATCH --array={}{at_once}", ranges(&indices)),
         format!("#SBATCH --cpus-per-task={threads}"),
         format!("#SBATCH --mem={memory}M"),
-        // The interrupt lets the run save its state; the process takes the place of the shell that gets it.
+        // The interrupt lets the run save its state; the process replaces the shell that would get it.
         format!("#SBATCH --signal=B:INT@{NOTICE}"),
         format!("#SBATCH --output={}", quoted(&root.join("logs").join("slurm-%A-%a.log").display().to_string())),
     ];
@@ -129,7 +129,7 @@ fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf())
 }
 
-/// The text as one word of a shell.
+/// The text quoted as one word of a shell.
 fn quoted(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=%".contains(c);
     if !text.is_empty() && text.chars().all(plain) {

@@ -1,4 +1,4 @@
-//! The table of a study: a row per run, as CSV with all digits and as Markdown for people.
+//! The table of a study: a row per run, as CSV with all digits and as Markdown for readers.
 
 use super::definition::Study;
 use super::resolution::Resolution;
@@ -17,7 +17,7 @@ pub(crate) struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-/// A head, and what stands below it in the row of an item.
+/// A head, and the text of a cell below it for an item.
 type Column<'c, T> = (&'c str, &'c dyn Fn(&T) -> String);
 
 impl Table {
@@ -39,13 +39,13 @@ impl Table {
     }
 }
 
-/// The measures that the table shows: those asked for, or all that the runs have.
+/// The measures in the table: the requested ones, or all that the runs have.
 pub(crate) fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
     study.report.measures.clone().unwrap_or_else(|| measures(results).into_keys().collect())
 }
 
-/// The table for other programs: all digits, beside each measure its uncertainty in the run and that by the spacing where they are known,
-/// the rate in its unit per s where it is not at rest, nothing where there is no value. It does not depend on how often the study was interrupted.
+/// The table for other programs: all digits; with each measure its uncertainty in the run and that due to the spacing, if known, the rate in its unit per s if
+/// it is not at rest, and an empty field if there is no value. It does not depend on how often the study was interrupted.
 pub(crate) fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
     let has_uncertainty = |name: &str| results.iter().any(|result| result.uncertainty(name).is_some());
@@ -88,8 +88,7 @@ pub(crate) fn full(study: &Study, results: &[RunResult], resolution: &Resolution
     Table { heads, rows: results.iter().map(row).collect() }
 }
 
-/// The table for people: four digits with the uncertainty behind them, that by the spacing included, units in the heads; what is not at rest
-/// is marked.
+/// The table for readers: four digits with the uncertainty, that due to the spacing included, units in the heads; measures that are not at rest are marked.
 pub(crate) fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
     let units = measures(results);

@@ -1,23 +1,23 @@
-//! Whether the runs came out as the study expects: measures within their tolerance, errors that fall, orders.
+//! Whether the expectations of the study are met: measures within their tolerance, decreasing errors, orders.
 
 use super::convergence::{Convergence, convergences};
 use super::definition::{Expectation, Study, Trend};
 use super::results::RunResult;
 use super::values::shown;
 
-/// What became of an expectation.
+/// The outcome of an expectation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Verdict {
     /// It is met.
     Met,
     /// It is missed.
     Missed,
-    /// A run that it needs is not complete.
+    /// A required run is not complete.
     Open,
 }
 
 impl Verdict {
-    /// One word for tables.
+    /// The outcome in one word, for tables.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Met => "met",
@@ -31,16 +31,16 @@ impl Verdict {
     }
 }
 
-/// An expectation of the study and what became of it.
+/// An expectation of the study and its outcome.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Judgment {
-    /// Of which run or runs.
+    /// The run or runs.
     pub(crate) of: String,
     /// Name of the measure.
     pub(crate) measure: String,
-    /// What was expected.
+    /// The expected value.
     pub(crate) expected: String,
-    /// What came out.
+    /// The measured value.
     pub(crate) found: String,
     /// The verdict.
     pub(crate) verdict: Verdict,
@@ -66,7 +66,7 @@ fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
         (_, Some(found), Some(value), Some(tolerance)) => Verdict::of((found - value).abs() <= tolerance),
         _ => Verdict::Missed,
     };
-    // What the user wrote keeps its digits.
+    // Numbers from the study file keep their digits.
     let number = |number: Option<f64>| number.map_or("?".to_owned(), |number| shown(&number.into()));
     Judgment {
         of: result.run.name.clone(),
@@ -108,14 +108,14 @@ fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
     }
 }
 
-/// A number with four digits; a whole one as it is.
+/// A number with four significant digits; an integer as it is.
 pub(crate) fn digits(number: f64) -> String {
     significant(number, 4)
 }
 
-/// A number with so many digits; a whole one as it is.
+/// A number with `digits` significant digits; an integer as it is.
 pub(crate) fn significant(number: f64, digits: usize) -> String {
-    /// Outside of these an exponent is shorter than zeros.
+    /// Outside of this range, an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
     let size = number.abs();
     let behind_first = digits.saturating_sub(1);
@@ -155,7 +155,7 @@ mod tests {
             let results = complete(&study, |run| errors[run.index - 1]);
             judgments(&study, &results).remove(0)
         };
-        // Steps of first order, and then what something else leaves.
+        // Steps of first order, and then a floor due to other causes.
         let at_floor = judged("floor = 0.01\norder = 1.0\n", [0.05, 0.02, 0.005]);
         assert_eq!(at_floor.verdict, Verdict::Met);
         assert_eq!(at_floor.expected, "error falls with dx, down to 0.01, order at least 1");
@@ -164,7 +164,7 @@ mod tests {
             ("", [0.003, 0.005, 0.002], Verdict::Missed),
             ("floor = 0.01\n", [0.003, 0.005, 0.002], Verdict::Met),
             ("floor = 0.01\norder = 2.0\n", [0.003, 0.005, 0.002], Verdict::Met),
-            // Above the floor the error must fall, and with the order that is asked for.
+            // Above the floor the error must decrease, and with the required order.
             ("floor = 0.01\n", [0.003, 0.005, 0.02], Verdict::Missed),
             ("floor = 0.01\n", [0.02, 0.03, 0.005], Verdict::Missed),
             ("floor = 0.01\norder = 1.5\n", [0.05, 0.02, 0.005], Verdict::Missed),

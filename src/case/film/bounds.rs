@@ -1,6 +1,6 @@
-//! One meaning of every bound between two keys: bounds are closed, and a ratio that misses its bound by rounding meets it.
+//! Common treatment of bounds between two keys: bounds are closed, and a ratio that misses its bound by rounding meets it.
 
-/// Share of a bound by which a computed ratio may miss it: 5 × 0.1 and 0.5 are not the same number.
+/// Relative tolerance of a bound for a computed ratio: 5 × 0.1 and 0.5 are not the same number.
 const ROUNDING: f64 = 1.0e-9;
 
 /// Whether a positive value is above a closed bound.

@@ -1,4 +1,4 @@
-//! `[[thin-film.droplets]]`: the droplets of a thin film, and the wall that they stand on.
+//! `[[thin-film.droplets]]`: the droplets of a thin film, and the wall below them.
 
 use super::bounds::exceeds;
 use crate::geometry::spec::GeometrySpec;
@@ -6,11 +6,11 @@ use crate::input::Checker;
 use crate::input::tables::{Key, checked_tables, words};
 
 words! {
-    /// The film across the plane of the picture.
+    /// Symmetry of the film.
     pub enum FilmSymmetry {
-        /// The same at any depth.
+        /// Uniform in the direction of depth.
         Plane,
-        /// The same all around the axis x = 0.
+        /// Axisymmetric about x = 0.
         Axis,
     }
 }
@@ -34,7 +34,7 @@ impl FilmDroplet {
     }
 }
 
-/// The droplets from left to right, none where one is wrong.
+/// The droplets from left to right, `None` if one is wrong.
 pub(super) fn droplets(checker: &mut Checker, raw: &[RawDroplet], symmetry: FilmSymmetry) -> Option<Vec<FilmDroplet>> {
     if raw.is_empty() {
         checker.require::<()>("thin-film.droplets", None, "[[thin-film.droplets]] with half-width and height in m");
@@ -64,7 +64,7 @@ pub(super) fn droplets(checker: &mut Checker, raw: &[RawDroplet], symmetry: Film
     Some(found)
 }
 
-/// The domain is the wall from its left to its right side; the droplets stand on it.
+/// The domain is the wall from its left to its right side; the droplets lie on it.
 pub(super) fn domain(checker: &mut Checker, geometry: &GeometrySpec, droplets: &[FilmDroplet], symmetry: FilmSymmetry) {
     if !geometry.shapes.is_empty() {
         checker.refuse(

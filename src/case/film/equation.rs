@@ -1,4 +1,4 @@
-//! `[thin-film.equation]` and `[thin-film.wetting]`: the equation of a thin film, and what it knows of wetting.
+//! `[thin-film.equation]` and `[thin-film.wetting]`: the equation of a thin film, and its wetting model.
 
 use super::droplets::FilmSymmetry;
 use crate::input::Checker;
@@ -63,19 +63,19 @@ pub enum FilmEquation {
     Geometric(Geometric),
     /// Navier slip.
     Slip(Slip),
-    /// Precursor film; a slip length of 0 for a wall that sticks.
+    /// Precursor film; a slip length of 0 for a no-slip wall.
     Precursor(Precursor),
 }
 
 /// The equations in a case file.
 pub(super) const EQUATION: &str =
     "[thin-film.equation.geometric] with smoothing-length in m, or `slip`, or `precursor`";
-/// Height of the film that counts as dry over the slip length, where the case says nothing.
+/// Height of the film that counts as dry relative to the slip length, if the case does not give it.
 const DRY: f64 = 0.1;
-/// Angles of rest in degrees at which a film may be called thin.
+/// Contact angles at rest in degrees for which a film may be called thin.
 const ANGLES: (f64, f64) = (0.1, 45.0);
 
-/// The equation of a case, none where it is missing or wrong.
+/// The equation of a case, `None` if it is missing or wrong.
 pub(super) fn equation(checker: &mut Checker, raw: &RawFilmEquation) -> Option<FilmEquation> {
     match (&raw.geometric, &raw.slip, &raw.precursor) {
         (Some(raw), None, None) => raw.clone().complete().map(FilmEquation::Geometric),
@@ -99,7 +99,7 @@ pub(super) fn equation(checker: &mut Checker, raw: &RawFilmEquation) -> Option<F
     }
 }
 
-/// The angle of rest in rad; the outer option is missing where it was wrong.
+/// The contact angle at rest in rad; the outer option is missing if it was wrong.
 #[expect(clippy::option_option, reason = "a wrong angle is not the same as complete wetting")]
 pub(super) fn wetting(checker: &mut Checker, raw: &RawFilmWetting) -> Option<Option<f64>> {
     match (&raw.complete, &raw.partial) {
@@ -116,7 +116,7 @@ pub(super) fn wetting(checker: &mut Checker, raw: &RawFilmWetting) -> Option<Opt
     }
 }
 
-/// Which equations can make a droplet rest.
+/// Which equations support a droplet at rest.
 pub(super) fn partial_wetting(checker: &mut Checker, equation: FilmEquation, symmetry: FilmSymmetry) {
     let message = match (equation, symmetry) {
         (FilmEquation::Slip(_), _) => "the equation with slip is for complete wetting: it does not know an angle",
@@ -141,7 +141,7 @@ pub(super) fn raw_equation(equation: FilmEquation) -> RawFilmEquation {
     }
 }
 
-/// The table of an angle of rest in rad.
+/// The table of a contact angle at rest in rad.
 pub(super) fn raw_wetting(contact_angle: Option<f64>) -> RawFilmWetting {
     let degrees = contact_angle.map(|angle| angle.to_degrees().clamp(ANGLES.0, ANGLES.1));
     RawFilmWetting {

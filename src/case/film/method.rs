@@ -38,23 +38,23 @@ words! {
     pub enum FilmIntegrator {
         /// Linearly implicit, order 4: steps as long as the solution allows.
         Stiff,
-        /// Dormand and Prince, order 5: steps as short as stability wants.
+        /// Dormand and Prince, order 5: the time step is limited by stability.
         Explicit,
     }
 
-    /// What is done about the energy of the particle lattice.
+    /// Treatment of the energy of the particle lattice.
     pub enum LatticeEnergy {
-        /// Nothing, as in the paper.
+        /// Kept, as in the paper.
         Kept,
-        /// Its gradient is taken off: not in the paper, order 4 where gaps stay below half a filter length.
+        /// Its gradient is subtracted: not in the paper, order 4 as long as gaps are below half a filter length.
         TakenOff,
     }
 
-    /// How the sums over the particles of a thin film are taken.
+    /// Evaluation of the sums over the particles of a thin film.
     pub enum FilmSums {
-        /// From neighbor to neighbor, in a time in proportion to their number.
+        /// From neighbor to neighbor, in linear time.
         Recursive,
-        /// Over all pairs, to compare with: the time goes as the square of the number.
+        /// Over all pairs, for comparison: quadratic time.
         Direct,
     }
 }
@@ -77,8 +77,8 @@ const PARTICLES: FilmParticles = FilmParticles {
 };
 const GRID: FilmGrid = FilmGrid { step_share: 0.005 };
 
-/// The method of a case that names none. Particles rest at a steeper angle than asked for by the energy of their lattice, so that they are
-/// it in complete wetting only.
+/// The default method of a case. Due to the energy of their lattice, particles come to rest at too steep an angle, so they are the default in complete wetting
+/// only.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum DefaultMethod {
     Particles,

@@ -6,11 +6,11 @@ use super::method::FilmMethod;
 use crate::input::tables::words;
 
 words! {
-    /// What a particle or node of a thin film stands for at time zero.
+    /// The initial weight of a particle or node of a thin film.
     pub enum FilmWeights {
         /// The film of its cell: the mass is exact.
         Cell,
-        /// The height at its place.
+        /// The height at its position.
         Point,
     }
 }
@@ -25,23 +25,23 @@ pub struct ThinFilm {
     pub viscosity: f64,
     /// Surface tension in N/m.
     pub tension: f64,
-    /// Density in kg/m³; 0 where nothing depends on it.
+    /// Density in kg/m³; 0 if nothing depends on it.
     pub density: f64,
     /// Gravity towards the wall in m/s².
     pub gravity: f64,
     /// Initial distance of particles, or distance of grid nodes, in m.
     pub spacing: f64,
-    /// The film across the plane of the picture.
+    /// Symmetry of the film.
     pub symmetry: FilmSymmetry,
     /// The droplets at time zero, from left to right.
     pub droplets: Vec<FilmDroplet>,
     /// The equation.
     pub equation: FilmEquation,
-    /// Angle of rest in rad; absent in complete wetting.
+    /// Contact angle at rest in rad; `None` in complete wetting.
     pub contact_angle: Option<f64>,
     /// How the equation is solved.
     pub method: FilmMethod,
-    /// Whether particles and nodes hold the film of their cell (or the height at their place).
+    /// Whether the weight of particles and nodes is the film of their cell or the height at their position.
     pub weights: FilmWeights,
 }
 
@@ -51,7 +51,7 @@ impl ThinFilm {
         (self.viscosity, self.tension, self.density) == SCALED
     }
 
-    /// Whether the droplet rests as a parabola: on a precursor film without gravity. That of the geometric equation is a cosine.
+    /// Whether the droplet at rest is a parabola: on a precursor film without gravity. For the geometric equation it is a cosine.
     pub(crate) fn rests_as_cap(&self) -> bool {
         matches!(self.equation, FilmEquation::Precursor(_))
             && self.contact_angle.is_some()
@@ -59,13 +59,13 @@ impl ThinFilm {
             && self.droplets.len() == 1
     }
 
-    /// Whether the droplet spreads by the similarity solution about x = 0: one in the plane, completely wetting and without gravity.
+    /// Whether the droplet spreads by the similarity solution about x = 0: a single one in the plane, completely wetting and without gravity.
     pub(crate) fn is_self_similar(&self) -> bool {
         let is_alone = matches!(&self.droplets[..], [droplet] if droplet.center == 0.0);
         self.contact_angle.is_none() && self.symmetry == FilmSymmetry::Plane && self.gravity == 0.0 && is_alone
     }
 
-    /// One unit of each scaled quantity: length along the wall and height in m, time in s. `src/thin_film/scales.rs` tells what they stand for.
+    /// Units of the scaled quantities: length along the wall and height in m, time in s. See `src/thin_film/scales.rs`.
     pub fn scales(&self) -> [f64; 3] {
         let largest = |value: fn(&FilmDroplet) -> f64| self.droplets.iter().map(value).fold(0.0, f64::max);
         let (length, height) = match self.contact_angle {

@@ -1,4 +1,4 @@
-//! Checks of spacings against droplets, filter, slip length and films on the wall.
+//! Checks of the spacing relative to droplets, filter, slip length and films on the wall.
 
 use super::bounds::{exceeds, falls_short, is_outside};
 use super::droplets::FilmDroplet;
@@ -10,19 +10,19 @@ use crate::input::Checker;
 const MOST_UNKNOWNS: f64 = 1.0e7;
 /// Fewest spacings in the filter length.
 const FEWEST_IN_FILTER: f64 = 1.0;
-/// Fewest of them for particles: with fewer the smoothed film has a peak at each particle, and droplets come apart.
+/// The same for particles: with fewer, the smoothed film has a peak at each particle, and droplets break up.
 const FEWEST_BETWEEN_PARTICLES: f64 = 2.0;
-/// Most spacings in the filter length on a grid: fourth differences lose (α/Δx)⁴ roundings of their digits.
+/// Most spacings in the filter length on a grid: fourth differences lose digits by (α/Δx)⁴ rounding errors.
 const MOST_IN_FILTER: f64 = 1.0e3;
-/// Filter length over the half width: above, there is no droplet of a given slope.
+/// Largest filter length relative to the half width: above, there is no droplet of a given slope.
 const LARGEST_SMOOTHING: f64 = 0.4;
 /// Fewest spacings in the half width of a droplet.
 const FEWEST_IN_DROPLET: f64 = 10.0;
-/// Heights of films on the wall over that of the lowest droplet.
+/// Heights of films on the wall relative to that of the lowest droplet.
 const FILMS: (f64, f64) = (1.0e-6, 0.2);
-/// Most spacings over the height of a film, both over the scale of a droplet: a coarser grid does not see contact lines.
+/// Largest spacing relative to the height of a film, both scaled by the droplet: a coarser grid does not resolve contact lines.
 const COARSEST_FOR_FILM: f64 = 4.0;
-/// Slip lengths over the height of the lowest droplet.
+/// Largest slip length relative to the height of the lowest droplet.
 const LARGEST_SLIP: f64 = 0.5;
 
 pub(super) fn resolution(checker: &mut Checker, spacing: f64, equation: FilmEquation, droplets: &[FilmDroplet]) {
@@ -109,7 +109,7 @@ fn slip(checker: &mut Checker, equation: &str, slip: f64, height: f64) {
     }
 }
 
-/// The film on the wall is thin beside the droplets.
+/// Requires that the film on the wall is thin compared with the droplets.
 fn film(checker: &mut Checker, equation: &str, film: f64, height: f64) {
     let ratio = film / height;
     if is_outside(ratio, FILMS) {
@@ -124,7 +124,7 @@ fn film(checker: &mut Checker, equation: &str, film: f64, height: f64) {
     }
 }
 
-/// The grid sees the contact line, where heights are those of the film or of the slip length.
+/// Requires that the grid resolves the contact line, where heights are those of the film or of the slip length.
 fn coarse(checker: &mut Checker, spacing: f64, film: f64) {
     if exceeds(spacing, COARSEST_FOR_FILM * film) {
         checker.refuse(

@@ -42,7 +42,7 @@ tables! {
     }
 }
 
-/// What a film is made of, SI units.
+/// Properties of the liquid of a film, SI units.
 pub(super) struct Liquid {
     pub viscosity: f64,
     pub tension: f64,
@@ -73,7 +73,7 @@ pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid>
     Some(Liquid { viscosity: viscosity?, tension: tension?, density: density?, gravity })
 }
 
-/// Checks `[thin-film]`; `geometry` is missing where it was wrong.
+/// Checks `[thin-film]`; `geometry` is missing if it was wrong.
 pub(in crate::case) fn thin_film(
     checker: &mut Checker,
     raw: &RawThinFilm,

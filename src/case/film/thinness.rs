@@ -1,8 +1,7 @@
-//! Whether a film is thin, and whether it can be computed as one: slopes, gravity, room for the droplets at rest, and how long it is at rest.
+//! Validity of the thin-film approximation: slopes, gravity, room for the droplets at rest, and how long the film is at rest.
 //!
-//! The pressure of a thin film takes the second derivative of its height for the curvature. At a contact angle θ that is 1/cos θ times that of
-//! the arc with this angle: 4 % too much at a slope tan θ of 0.3, 12 % at 0.5, 41 % at 1. Without a fluid a case is in scaled units, whose
-//! slopes are no angles.
+//! The pressure of a thin film approximates the curvature by the second derivative of the height. At a contact angle θ that is 1/cos θ times that of the arc
+//! with this angle: 4 % too much at a slope tan θ of 0.3, 12 % at 0.5, 41 % at 1. Without a fluid a case is in scaled units, whose slopes are not angles.
 
 use super::bounds::{exceeds, falls_short, is_outside};
 use super::droplets::{FilmDroplet, FilmSymmetry};
@@ -11,24 +10,24 @@ use super::model::ThinFilm;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
-/// Slope at rest up to which a film is called thin: its pressure is right within 12 %.
+/// Slope at rest up to which a film counts as thin: its pressure is accurate within 12 %.
 const THIN: f64 = 0.5;
-/// Steepest initial droplet, height over half width: twice that is the slope at its edge.
+/// Steepest initial droplet, height relative to half width: the slope at its edge is twice that.
 const STEEPEST: f64 = 5.0;
-/// Height over half width of any droplet, scaled or not: beyond, the equations round it off.
+/// Height relative to half width of any droplet, scaled or not: outside of this range the equations suffer from rounding.
 const RATIOS: (f64, f64) = (1e-6, 1e3);
-/// Fewest spacings in the capillary length, which the rim of a puddle is wide.
+/// Fewest spacings in the capillary length, which is the width of the rim of a puddle.
 const FEWEST_IN_RIM: f64 = 2.0;
-/// Times of its own scale that a film moves for; it was at rest long before.
+/// Duration of the motion of a film in units of its time scale; it is at rest long before.
 const MOVES: f64 = 1000.0;
-/// A film that runs for a smaller share of the same time is still far from its contact angle at the end.
+/// A film that runs for a smaller fraction of the same time is still far from its contact angle at the end.
 const FAR_FROM_REST: f64 = 0.01;
-/// Half width at the start over that at rest up to which a geometric film leaves less than 0.2 % of its area behind; 3 % at 1.9.
+/// Ratio of the initial half width to that at rest up to which a geometric film leaves less than 0.2 % of its area behind; 3 % at 1.9.
 const RECEDES: f64 = 1.3;
-/// A usual end in the same times.
+/// A typical end in the same units.
 const USUAL_END: f64 = 100.0;
 
-/// Refuses droplets that are no film.
+/// Refuses droplets that are too steep for a film.
 pub(super) fn steepness(checker: &mut Checker, film: &ThinFilm) {
     let (least, most) = (RATIOS.0, if film.is_scaled() { RATIOS.1 } else { STEEPEST });
     for (index, droplet) in film.droplets.iter().enumerate() {
@@ -89,7 +88,7 @@ pub(super) fn room(checker: &mut Checker, film: &ThinFilm, geometry: &GeometrySp
 }
 
 impl ThinFilm {
-    /// What a user should know of a run of the film to `end` (s), one sentence each.
+    /// Notes for the user on a run of the film to `end` (s), one sentence each.
     pub(crate) fn notes(&self, end: f64) -> Vec<String> {
         let mut notes = Vec::new();
         let slope = self.contact_angle.map_or(0.0, f64::tan);
@@ -120,11 +119,12 @@ impl ThinFilm {
         notes
     }
 
-    /// That the geometric equation leaves a film behind a contact line that recedes far.
+    /// The note that the geometric equation leaves a film behind a contact line that recedes far.
     fn receding_note(&self) -> Option<String> {
         let (FilmEquation::Geometric(_), Some(angle)) = (self.equation, self.contact_angle) else { return None };
-        let rest = |droplet: &FilmDroplet| (droplet.cross_section() / angle.tan()).sqrt();
-        let widest = self.droplets.iter().map(|droplet| droplet.half_width / rest(droplet)).fold(0.0, f64::max);
+        let half_width_at_rest = |droplet: &FilmDroplet| (droplet.cross_section() / angle.tan()).sqrt();
+        let widest =
+            self.droplets.iter().map(|droplet| droplet.half_width / half_width_at_rest(droplet)).fold(0.0, f64::max);
         (widest > RECEDES).then(|| {
             format!(
                 "a droplet begins {widest:.2} times as wide as it rests, expected at most {RECEDES}: a geometric film leaves liquid behind a \

@@ -1,4 +1,4 @@
-//! What is displaced in a network: which phase invades, by which events, from where on and how far.
+//! The displacement in a network: the invading phase, the events, the initial state and the end.
 
 use super::dynamic::{DynamicDrive, drive, raw_dynamic};
 use super::state::Start;
@@ -18,22 +18,22 @@ pub struct NetworkDisplacement {
     pub(crate) films: bool,
     /// Which events move menisci.
     pub(crate) events: Events,
-    /// Where it ends early.
+    /// Criteria for an early end.
     pub stop: Stop,
-    /// The state that it begins with; absent: the pore space is full of the defending phase.
+    /// Its initial state; `None`: the pore space is full of the defending phase.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub initial: Option<Start>,
-    /// What drives it in time; absent where it is quasi-static.
+    /// What drives it in time; `None` if it is quasi-static.
     pub dynamic: Option<DynamicDrive>,
 }
 
-/// What of the defending phase is trapped.
+/// Which parts of the defending phase are trapped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(into = "bool")]
 pub enum Trapping {
-    /// What has no way to an outlet; the invading phase advances from what is joined to an inlet.
+    /// Parts without a path to an outlet; the invading phase advances from parts connected to an inlet.
     Disconnected,
-    /// Nothing: films drain all.
+    /// None: films drain all.
     None,
 }
 
@@ -49,7 +49,7 @@ impl From<Trapping> for bool {
     }
 }
 
-/// Which phase invades.
+/// The invading phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Process {
@@ -57,7 +57,7 @@ pub enum Process {
     Drainage,
     /// The wetting phase.
     Imbibition,
-    /// Both in turn, so many times, drainage first.
+    /// Both in turn, for this number of cycles, drainage first.
     Cycle(u32),
 }
 
@@ -71,20 +71,20 @@ impl Process {
     }
 }
 
-/// Where a displacement, or each drainage of a cycle, ends early.
+/// Criteria for an early end of a displacement, or of each drainage of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Stop {
-    /// When the invading phase reaches the outlet.
+    /// At breakthrough: when the invading phase reaches the outlet.
     pub breakthrough: bool,
-    /// At this saturation of the wetting phase.
+    /// At this wetting saturation.
     pub saturation: Option<f64>,
     /// At this capillary pressure p_n - p_w in Pa; quasi-static only.
     pub capillary_pressure: Option<f64>,
-    /// When so many pore volumes have passed the inlet; in time only.
+    /// When this number of pore volumes has passed the inlet; in time only.
     pub injected: Option<f64>,
 }
 
-/// Checks what `[network]` says of the displacement.
+/// Checks the keys of `[network]` for the displacement.
 pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Option<Start>) -> NetworkDisplacement {
     let process = match raw.process {
         None | Some(RawProcess::Drainage) => Process::Drainage,
@@ -119,7 +119,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
     }
 }
 
-/// Refuses a state whose walls and periodic sides are others; what is open may change.
+/// Refuses a state with other walls and periodic sides; open sides may change.
 pub(super) fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &Sides) {
     if let Some((_, misfit)) = start.state.misfit_of_sides(sides) {
         let message = format!("{} is the state of other sides: {misfit}", start.file.display());
@@ -151,7 +151,7 @@ fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
     }
 }
 
-/// Keys that say how something is displaced, where nothing comes in.
+/// Refuses keys of a displacement without an inlet.
 pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
     let given = [
         ("outlet", raw.outlet.is_some()),
@@ -174,7 +174,7 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
     }
 }
 
-/// The keys of a displacement, beside those of its network.
+/// The keys of a displacement, besides those of its network.
 pub(super) fn raw_displacement(displacement: &NetworkDisplacement, network: RawNetwork) -> RawNetwork {
     let (process, cycles) = match displacement.process {
         Process::Drainage => (RawProcess::Drainage, None),

@@ -6,28 +6,28 @@ use crate::input::Checker;
 /// What drives a displacement in time.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct DynamicDrive {
-    /// A given rate or pressure.
+    /// A prescribed rate or pressure.
     pub drive: Drive,
-    /// Most pore volumes that pass the inlet in one step.
+    /// Largest number of pore volumes that pass the inlet in one step.
     pub largest_step: f64,
-    /// Saturation of the wetting phase at the beginning; none where the pores at the inlet are full.
+    /// Initial wetting saturation; `None` if the pores at the inlet are full.
     pub initial_saturation: Option<f64>,
 }
 
-/// By what a displacement in time is driven.
+/// The drive of a displacement in time.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Drive {
     /// Area injected per time in m²/s.
     Rate(f64),
-    /// Pressure at the inlet less that at the outlet in Pa.
+    /// Pressure at the inlet minus that at the outlet in Pa.
     PressureDrop(f64),
 }
 
-/// Most pore volumes per step where the case says nothing.
+/// Default of the largest number of pore volumes per step.
 pub const DEFAULT_LARGEST_STEP: f64 = 0.01;
 
-/// Checks `[network.dynamic]` and what goes with it.
+/// Checks `[network.dynamic]` and related keys.
 pub(super) fn drive(
     checker: &mut Checker,
     raw: &RawNetwork,

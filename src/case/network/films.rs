@@ -1,4 +1,4 @@
-//! `films` of `[network]`: where corners of a chip can hold films of the wetting phase.
+//! `films` of `[network]`: whether corners of a chip can contain films of the wetting phase.
 
 use super::displacement::Process;
 use super::pore_network::{NetworkInterface, PoreNetwork};
@@ -6,7 +6,7 @@ use crate::case::wetting::{PatchedWall, on_plates};
 use crate::input::Checker;
 use crate::wetting::Wetting;
 
-/// Refuses films without a depth, and those that no corner can hold.
+/// Refuses films without a depth, and if no corner allows them.
 pub(in crate::case) fn refuse_films(checker: &mut Checker, network: &PoreNetwork, depth: Option<f64>) {
     const KEY: &str = "network.films";
     let Some(displacement) = network.displacement.as_ref().filter(|displacement| displacement.films) else { return };
@@ -33,7 +33,7 @@ pub(in crate::case) fn refuse_films(checker: &mut Checker, network: &PoreNetwork
     }
 }
 
-/// The smallest contact angles in rad of all walls, and of floor and lid, through the wetting phase: receding (0) or advancing (1).
+/// The smallest contact angles in rad of all walls, and of floor and lid, measured through the wetting phase: receding (0) or advancing (1).
 fn smallest_angles(interface: &NetworkInterface, end: usize) -> [f64; 2] {
     let angle = |model: &Wetting| model.hysteresis_range()[end];
     let patches = interface.patches.iter().filter(|patch| !matches!(patch.on, PatchedWall::Plate(_)));

@@ -1,4 +1,4 @@
-//! Entry pressures that were measured by direct simulation: `measured.json` of `meniscus network verify`, and the same within a case.
+//! Entry pressures measured by direct simulation: `measured.json` of `meniscus network verify`, and the same within a case.
 
 use std::path::Path;
 
@@ -11,17 +11,17 @@ use crate::input::Checker;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Measured {
-    /// Tells the geometry, as in `network.json`.
+    /// Identifies the geometry, as in `network.json`.
     pub geometry_hash: String,
     /// The throats.
     pub throats: Vec<MeasuredThroat>,
 }
 
-/// One of them. Curvatures are those of the meniscus, above 0 where it bulges into the phase that is displaced.
+/// A measured throat. Curvatures are those of the meniscus, above 0 if it bulges into the displaced phase.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct MeasuredThroat {
-    /// Index among all throats of the network, those that the merge dissolves included.
+    /// Index among all throats of the network, including those that the merge removes.
     pub index: usize,
     /// Curvature by the formula in 1/m.
     pub formula_curvature: f64,
@@ -29,10 +29,10 @@ pub struct MeasuredThroat {
     pub entry_curvature: f64,
 }
 
-/// The case with the measured values of the file that it names, if it names one.
+/// The case with the measured values from its file, if it names one.
 pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder: &Path) -> RawNetwork {
-    let mut whole = raw.clone();
-    let Some(file) = whole.measured.take() else { return whole };
+    let mut completed = raw.clone();
+    let Some(file) = completed.measured.take() else { return completed };
     const PATH: &str = "network.measured";
     if raw.measured_throats.is_some() {
         checker.refuse(
@@ -40,7 +40,7 @@ pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder
             "measured values are given twice, by this file and by [network.measured-throats]",
             "keep one of both",
         );
-        return whole;
+        return completed;
     }
     let path = folder.join(&file);
     let help = "name the measured.json of `meniscus network verify`, relative to the case file";
@@ -50,10 +50,10 @@ pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder
             Err(error) => {
                 checker.refuse(PATH, format!("{} is no list of measured throats: {error}", path.display()), help)
             }
-            Ok(measured) => whole.measured_throats = Some(table(&measured)),
+            Ok(measured) => completed.measured_throats = Some(table(&measured)),
         },
     }
-    whole
+    completed
 }
 
 /// The values as a table of a case.
@@ -69,7 +69,7 @@ pub(super) fn table(measured: &Measured) -> RawMeasured {
     }
 }
 
-/// The values, none where one is missing.
+/// The values, `None` if one is missing.
 pub(super) fn checked(raw: &RawMeasured) -> Option<Measured> {
     let throat = |raw: &RawMeasuredThroat| {
         Some(MeasuredThroat {

@@ -15,25 +15,25 @@ use crate::input::Checker;
 use crate::input::tables::Key;
 use crate::wetting::Wetting;
 
-/// A pore network and what is displaced in it.
+/// A pore network and the displacement in it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct PoreNetwork {
     /// The four sides: walls, periodic sides, the inlet and the outlet.
     pub sides: Sides,
-    /// The wetting phase, where it is given.
+    /// The wetting phase, if given.
     pub wetting: Option<Fluid>,
-    /// The non-wetting phase, where it is given.
+    /// The non-wetting phase, if given.
     pub non_wetting: Option<Fluid>,
-    /// Interface and walls; absent: no entry pressures.
+    /// Interface and walls; `None`: no entry pressures.
     pub interface: Option<NetworkInterface>,
     /// Persistence ratio above which two maxima of the wall distance are one pore.
     pub persistence: f64,
-    /// Entry pressures that were measured, in place of those of the formula.
+    /// Measured entry pressures, which replace those of the formula.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
-    /// What is displaced; absent where there is no inlet.
+    /// The displacement; `None` without an inlet.
     pub displacement: Option<NetworkDisplacement>,
-    /// Where saturations and the porosity are taken; absent: in the whole domain.
+    /// Where saturations and the porosity are taken; `None`: in the whole domain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) region: Option<Region>,
     /// Further files.
@@ -42,27 +42,27 @@ pub struct PoreNetwork {
 }
 
 impl PoreNetwork {
-    /// Whether it is displaced in time, so that its clock is the time in s.
+    /// Whether the displacement is in time, so that its clock is the time in s.
     pub(crate) fn is_dynamic(&self) -> bool {
         self.displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_some())
     }
 }
 
-/// The interface between two fluids and its angles on walls.
+/// The interface between two fluids and its contact angles on walls.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct NetworkInterface {
     /// Interfacial tension in N/m.
     pub tension: f64,
     /// Static angles through the wetting phase: Young, Tadmor or hysteresis.
     pub wetting_model: Wetting,
-    /// Walls with angles of their own, without stripes.
+    /// Walls with their own angles, without stripes.
     pub patches: Vec<WettingPatch>,
 }
 
-/// Persistence ratio where the case says nothing.
+/// Default persistence ratio.
 pub(crate) const DEFAULT_PERSISTENCE: f64 = 0.95;
 
-/// Checks `[network]`; `geometry` is missing where it was wrong.
+/// Checks `[network]`; `geometry` is missing if it was wrong.
 pub(in crate::case) fn network(
     checker: &mut Checker,
     raw: &RawNetwork,
@@ -81,7 +81,7 @@ pub(in crate::case) fn network(
     if raw.dynamic.is_some() && raw.measured_throats.is_some() {
         checker.refuse(
             "network.measured",
-            "a displacement in time follows menisci through throats by the formula, and knows no measured pressures",
+            "a displacement in time uses the entry pressures of the formula, not measured ones",
             "leave it out, or leave out [network.dynamic]",
         );
     }
@@ -117,7 +117,7 @@ pub(in crate::case) fn network(
     })
 }
 
-/// The kinds of all four sides; none where they do not go together.
+/// The kinds of all four sides; `None` if they are incompatible.
 fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
     let before = checker.problems.len();
     let given = raw.sides.clone().unwrap_or_default();
@@ -172,7 +172,7 @@ fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
     (checker.problems.len() == before).then_some(Sides { left, right, bottom, top })
 }
 
-/// Tension and angles: both, or neither where nothing is displaced. The outer option is missing where a mistake was found.
+/// Tension and angles: both, or neither without a displacement. The outer option is missing if a mistake was found.
 fn interface(
     checker: &mut Checker,
     raw: &RawNetwork,
@@ -207,7 +207,7 @@ fn interface(
     Some(Some(NetworkInterface { tension: tension?, wetting_model: model?, patches }))
 }
 
-/// The model, where it is one of lines at rest.
+/// The model, if it is one for lines at rest.
 fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
     if !model.is_dynamic() {
         return Some(model);

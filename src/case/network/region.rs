@@ -1,4 +1,4 @@
-//! `[network.region]`, where saturations and the porosity are taken, and `[network.output]`.
+//! `[network.region]`, the region of saturations and porosity, and `[network.output]`.
 
 use super::table::{RawNetwork, RawNetworkOutput, RawRegion, RegionExtent};
 use crate::case::side::{Side, Sides};
@@ -23,7 +23,7 @@ impl Region {
     }
 }
 
-/// Saturation functions that are written as files for reservoir simulators.
+/// Saturation functions written as files for reservoir simulators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub(crate) struct Tables {
     /// Those of water and oil.
@@ -33,18 +33,18 @@ pub(crate) struct Tables {
 }
 
 impl Tables {
-    /// Whether none is written.
+    /// Whether there are none.
     pub(crate) fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The table that asks for them.
+    /// The corresponding table.
     pub(super) fn raw(self) -> RawNetworkOutput {
         RawNetworkOutput { swof: self.swof.then_some(true), sgof: self.sgof.then_some(true) }
     }
 }
 
-/// Checks `[network.region]`; `geometry` is missing where it was wrong.
+/// Checks `[network.region]`; `geometry` is missing if it was wrong.
 pub(super) fn region(
     checker: &mut Checker,
     raw: &RawNetwork,
@@ -71,27 +71,27 @@ pub(super) fn region(
     }
     let min = checker.require("network.region.min", given.min, "min = [1.0e-3, 0.0] # m, or extent = \"pack\"")?;
     let max = checker.require("network.region.max", given.max, "max = [5.0e-3, 4.0e-3] # m")?;
-    let told = format!(
+    let extent = format!(
         "the domain reaches from [{:e}, {:e}] to [{:e}, {:e}] m",
         domain.min.x, domain.min.y, domain.max.x, domain.max.y
     );
     if (0..2).any(|axis| min[axis].partial_cmp(&max[axis]) != Some(std::cmp::Ordering::Less)) {
         let message = format!("expected `max` above and to the right of `min`, found {min:?} and {max:?}");
-        checker.refuse("network.region.max", message, told);
+        checker.refuse("network.region.max", message, extent);
         return None;
     }
-    // Corners may have been rounded where they were written.
+    // Corners may have been rounded in the file.
     let slack = 1e-9 * domain.size().max();
     let is_inside = (0..2).all(|axis| min[axis] >= domain.min[axis] - slack && max[axis] <= domain.max[axis] + slack);
     if !is_inside {
         let message = format!("expected a region inside of the domain, found one from {min:?} to {max:?} m");
-        checker.refuse(KEY, message, told);
+        checker.refuse(KEY, message, extent);
         return None;
     }
     Some(Region { min, max })
 }
 
-/// From the first to the last grain along the way from inlet to outlet, across all of the domain; along both axes where nothing comes in.
+/// From the first to the last grain in the direction from inlet to outlet, across the whole domain; along both axes without an inlet.
 fn pack(checker: &mut Checker, geometry: &GeometrySpec, domain: Bounds, sides: &Sides) -> Option<Region> {
     let inlet = sides.each().iter().position(|&side| side == Side::Inlet);
     let spans = |bounds: &Bounds| {
@@ -118,7 +118,7 @@ pub(super) fn raw_region(region: Region) -> RawRegion {
     RawRegion { min: Some(region.min), max: Some(region.max), extent: None }
 }
 
-/// Refuses saturation functions without a displacement from an inlet to an outlet at rest.
+/// Refuses saturation functions without a quasi-static displacement from an inlet to an outlet.
 pub(super) fn refuse_tables(checker: &mut Checker, raw: &RawNetwork, tables: Tables) {
     if tables.is_empty() || raw.inlet.is_none() {
         return;

@@ -1,5 +1,5 @@
-//! The state of a displacement as a file: phases of all elements, exact menisci, and what they belong to. A network writes it, and a network or a
-//! direct simulation of the same geometry begins with it.
+//! The state of a displacement as a file: phases of all elements, exact menisci, and the geometry they belong to. Written by a network; the initial state of a
+//! network or a direct simulation of the same geometry.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,11 +16,11 @@ use crate::math::Vec2;
 /// The format of state files that this program reads and writes.
 pub(crate) const FORMAT: u32 = 1;
 
-/// A distance below this share of the longer side of the domain is rounding, of numbers that were written and read.
+/// A distance below this fraction of the longer side of the domain is rounding in a file.
 const SAME_PLACE: f64 = 1e-7;
 
-/// The state of a displacement. SI units; curvatures in 1/m, above 0 where the interface bulges into the wetting phase, so that tension times
-/// curvature is p_n - p_w.
+/// The state of a displacement. SI units; curvatures in 1/m, above 0 if the interface bulges into the wetting phase, so that tension times curvature is p_n -
+/// p_w.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NetworkState {
@@ -28,7 +28,7 @@ pub struct NetworkState {
     pub format: u32,
     /// The program that wrote it.
     pub version: String,
-    /// What the numbers mean.
+    /// Explanation of the numbers.
     pub note: String,
     /// [`Geometry::hash`] in hexadecimal digits.
     pub geometry_hash: String,
@@ -36,31 +36,31 @@ pub struct NetworkState {
     pub domain_m: [[f64; 2]; 2],
     /// The left, right, bottom and top side.
     pub sides: [Side; 4],
-    /// The phase that invades.
+    /// The invading phase.
     pub invading: FluidPhase,
-    /// Number of the half cycle, from 1 on.
+    /// Number of the half cycle, from 1.
     pub half_cycle: usize,
     /// Number of its events so far.
     pub events: usize,
     /// Interfacial tension.
     pub tension_n_per_m: f64,
-    /// The applied curvature, at which all menisci rest but those around what is trapped. In the middle of an avalanche it is that of the next event.
+    /// The applied curvature, at which all menisci are at rest except for those of trapped ganglia. During an avalanche it is that of the next event.
     pub applied_curvature_per_m: f64,
-    /// Tension times that; in a chip with a depth what floor and lid add comes to it.
+    /// Tension times the applied curvature; in a chip with a depth, floor and lid contribute in addition.
     pub capillary_pressure_pa: f64,
-    /// The largest curvature that was applied so far; absent before the first event.
+    /// The largest curvature applied so far; `None` before the first event.
     pub largest_applied_curvature_per_m: Option<f64>,
     /// Smallest and largest contact angle on the walls through the wetting phase, in degrees.
     pub contact_angles_deg: [f64; 2],
-    /// Share of the wetting phase by elements.
+    /// Wetting saturation by elements.
     pub saturation: f64,
-    /// The same with the areas that menisci sweep beyond their gates; absent where it is not known.
+    /// The same including the areas swept by menisci beyond their gates; `None` if not known.
     pub saturation_with_menisci: Option<f64>,
     /// The parts of the pore space that events fill.
     pub elements: Vec<ElementState>,
     /// All menisci.
     pub menisci: Vec<MeniscusState>,
-    /// Throats of the network before the merge that films have closed; they hold no volume. Absent where there are none.
+    /// Throats of the network before the merge that were closed by snap-off of films; they have no volume. Absent if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub snapped_throats: Vec<usize>,
     /// The boundary of the invading phase along walls and menisci, the phase on its left: numbers of segments and arcs.
@@ -71,15 +71,15 @@ pub struct NetworkState {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ElementState {
-    /// What it holds.
+    /// Its phase.
     pub phase: FluidPhase,
-    /// Whether it holds the defending phase and cannot let it go.
+    /// Whether it is filled with trapped defending phase.
     pub trapped: bool,
-    /// Curvature of the menisci around what is trapped.
+    /// Curvature of the menisci around the trapped phase.
     pub trapped_curvature_per_m: Option<f64>,
     /// Area.
     pub area_m2: f64,
-    /// Its boundary in order, pore on the right: numbers of segments and arcs.
+    /// Its oriented boundary, pore on the right: numbers of segments and arcs.
     pub boundary: Vec<Vec<f64>>,
 }
 
@@ -89,30 +89,30 @@ pub struct ElementState {
 pub struct MeniscusState {
     /// The element of the invading phase, and that of the defending phase.
     pub between: [usize; 2],
-    /// Curvature; absent where no meniscus is known, and the chord of the gate stands for it.
+    /// Curvature; `None` if no meniscus is known, and the chord of the gate replaces it.
     pub curvature_per_m: Option<f64>,
-    /// Contacts with the walls on the left and on the right of the advance.
+    /// Contact points on the walls on the left and on the right in the direction of the advance.
     pub contacts_m: [[f64; 2]; 2],
-    /// Signed angle between the chord of both contacts and the interface in rad, above 0 where it bulges into the defending phase.
+    /// Signed angle between the chord of both contact points and the interface in rad, above 0 if it bulges into the defending phase.
     pub bend_rad: f64,
-    /// Area between the chord of the gate and the interface, above 0 where the interface is ahead; absent where it is not known.
+    /// Area between the chord of the gate and the interface, above 0 if the interface is ahead; `None` if not known.
     pub swept_area_m2: Option<f64>,
 }
 
-/// A state that a run begins with.
+/// The initial state of a run.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Start {
     /// Its file.
     pub file: PathBuf,
     /// A hash of its content.
     pub digest: String,
-    /// What stands in it.
+    /// Its content.
     #[serde(skip)]
     pub state: Arc<NetworkState>,
 }
 
 impl NetworkState {
-    /// A state without elements in a domain without size, to be filled in by tests.
+    /// A state without elements in a domain of zero size, to be filled in by tests.
     #[cfg(test)]
     pub(crate) fn empty() -> Self {
         Self {
@@ -139,12 +139,12 @@ impl NetworkState {
         }
     }
 
-    /// Whether the domain is joined along x and y.
+    /// Whether the domain is periodic along x and y.
     pub fn periodic(&self) -> [bool; 2] {
         [0, 2].map(|side| self.sides[side] == Side::Periodic)
     }
 
-    /// What leads from a place in the domain to its nearest images in m, the place itself first.
+    /// The translations from a point in the domain to its nearest images in m, first the zero one.
     pub(crate) fn images(&self) -> Vec<Vec2> {
         let size = Vec2::from(self.domain_m[1]) - Vec2::from(self.domain_m[0]);
         let shifts = self.periodic().map(|is_joined| if is_joined { &[0.0, -1.0, 1.0][..] } else { &[0.0][..] });
@@ -153,10 +153,10 @@ impl NetworkState {
         shifts[0].iter().flat_map(image).collect()
     }
 
-    /// The state in a text.
+    /// Parses a state.
     ///
     /// # Errors
-    /// What is wrong, with line and column where it has a place.
+    /// What is wrong, with line and column if known.
     pub fn read(text: &str) -> Result<Self, String> {
         let state: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
         if state.format != FORMAT {
@@ -178,7 +178,7 @@ impl NetworkState {
         numbers.iter().filter_map(|numbers| Curve::from_numbers(numbers)).collect()
     }
 
-    /// What makes it a state of another geometry than this one; nothing where it is of this one.
+    /// Why it is not a state of this geometry; `None` if it is.
     pub(crate) fn misfit(&self, spec: &GeometrySpec) -> Option<String> {
         if [spec.min, spec.max] != self.domain_m {
             let ([a, b], [c, d]) = (self.domain_m, [spec.min, spec.max]);
@@ -189,7 +189,7 @@ impl NetworkState {
         if hash == self.geometry_hash {
             return None;
         }
-        // A drawing that was cut in another way at the sides has another hash, and the same pores.
+        // A drawing that was cut differently at the sides has another hash, but the same pores.
         let geometry = geometry.with_sides(self.periodic(), self.sides.map(|side| side == Side::Wall));
         let size = geometry.bounds().size().max();
         let curves = self.elements.iter().flat_map(|element| Self::curves(&element.boundary));
@@ -213,13 +213,13 @@ impl NetworkState {
         })
     }
 
-    /// What of these sides does not go with those of the state: the first such side and why.
+    /// The first of these sides that is incompatible with those of the state, and why.
     pub(crate) fn misfit_of_sides(&self, sides: &Sides) -> Option<(&'static str, String)> {
         let given = sides.each();
         let fits = |state: Side, side: Side| match state {
             Side::Periodic => side == Side::Periodic,
             Side::Wall => side == Side::Wall,
-            // What was open can be closed.
+            // Open sides may be closed.
             _ => side != Side::Periodic,
         };
         let (name, state, side) = SIDES
@@ -227,7 +227,7 @@ impl NetworkState {
             .zip(self.sides.into_iter().zip(given))
             .map(|(name, (state, side))| (name, state, side))
             .find(|&(_, state, side)| !fits(state, side))?;
-        let told = |side: Side| match side {
+        let kind = |side: Side| match side {
             Side::Periodic => "periodic",
             Side::Wall => "a wall",
             Side::Image => "an image wall",
@@ -235,6 +235,6 @@ impl NetworkState {
             Side::Inlet => "the inlet",
             Side::Outlet => "the outlet",
         };
-        Some((name, format!("its side `{name}` is {}, that of this case {}", told(state), told(side))))
+        Some((name, format!("its side `{name}` is {}, that of this case {}", kind(state), kind(side))))
     }
 }

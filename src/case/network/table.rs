@@ -53,14 +53,14 @@ tables! {
         pub output: RawNetworkOutput,
     }
 
-    /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that reaches over its edge the part inside counts;
-    /// what opens at the inlet or the outlet is manifold and has no saturation, so that the first saturation is that of the defending phase alone.
+    /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that crosses its boundary the part inside counts; pores
+    /// open to the inlet or the outlet are manifold and have no saturation, so that the first saturation is that of the defending phase alone.
     pub(crate) struct RawRegion {
         /// Lower left corner in m.
         pub min: [f64; 2],
         /// Upper right corner in m.
         pub max: [f64; 2],
-        /// `pack`: from the first to the last grain on the way from inlet to outlet, across all of the domain; in place of both corners.
+        /// `pack`: from the first to the last grain between inlet and outlet, across the whole domain; instead of both corners.
         pub extent: RegionExtent,
     }
 
@@ -92,8 +92,8 @@ tables! {
         pub pressure_drop: f64 => Key::positive("a pressure drop in Pa"),
         /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
         pub largest_step: f64 => Key::within("a share of the pore volume", 1.0e-6, 1.0),
-        /// Saturation of the wetting phase at the beginning: the invading phase holds part of the pores that are open at the inlet and fills them first
-        /// (these pores are full).
+        /// Initial saturation of the wetting phase: the invading phase fills part of the pores that are open at the inlet and completes them first (default:
+        /// these pores are full).
         pub initial_saturation: f64 => Key::within("a saturation", 0.0, 1.0),
     }
 
@@ -115,7 +115,7 @@ tables! {
         pub entry_curvature: f64 => Key::required("entry-curvature = 4.0e4 # 1/m"),
     }
 
-    /// Where a displacement ends early; whatever comes first.
+    /// Criteria that end a displacement; the first one met counts.
     pub(crate) struct RawStop {
         /// Ends when the invading phase reaches the outlet (default false).
         pub breakthrough: bool,
@@ -129,15 +129,15 @@ tables! {
 }
 
 words! {
-    /// What stands at a side of a network.
+    /// Kind of a side of a network.
     pub(crate) enum RawNetworkSide {
         /// A solid wall with the contact angle of all walls.
         Wall,
-        /// Joined to the opposite side.
+        /// Periodic with the opposite side.
         Periodic,
     }
 
-    /// Which phase invades.
+    /// The invading phase.
     pub(crate) enum RawProcess {
         /// The non-wetting phase, into a pore space full of the wetting one.
         Drainage,
@@ -147,7 +147,7 @@ words! {
         Cycle,
     }
 
-    /// A region that follows from the geometry.
+    /// A region defined by the geometry.
     pub(crate) enum RegionExtent {
         /// From the first to the last grain.
         Pack,
@@ -157,7 +157,7 @@ words! {
     pub enum Events {
         /// Burst, touch and overlap.
         All,
-        /// Burst only: invasion percolation, to compare with other programs.
+        /// Burst only: invasion percolation, for comparison with other programs.
         Burst,
     }
 }

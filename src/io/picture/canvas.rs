@@ -34,7 +34,7 @@ pub enum PictureError {
 /// A color as red, green, blue.
 pub(crate) type Rgb = [u8; 3];
 
-/// What is drawn on. Lengths in pixels, y downwards.
+/// A canvas. Lengths in pixels, y downwards.
 pub(crate) struct Canvas {
     pixels: Pixmap,
     font: FontRef<'static>,
@@ -56,7 +56,7 @@ impl Canvas {
         Ok(Self { pixels, font })
     }
 
-    /// A filled rectangle from the upper left corner.
+    /// A filled rectangle, from its upper left corner.
     pub(crate) fn rectangle(&mut self, corner: [f32; 2], size: [f32; 2], color: Rgb) {
         if let Some(rect) = Rect::from_xywh(corner[0], corner[1], size[0], size[1]) {
             self.pixels.fill_rect(rect, &paint(color), Transform::identity(), None);
@@ -84,7 +84,7 @@ impl Canvas {
         }
     }
 
-    /// Makes all white that is outside of a rectangle with the given upper left corner.
+    /// Whitens everything outside of a rectangle with the given upper left corner.
     pub(crate) fn wipe_outside(&mut self, [x, y]: [f32; 2], [width, tall]: [f32; 2]) {
         const WHITE: Rgb = [255, 255, 255];
         let (all, height) = (self.pixels.width() as f32, self.pixels.height() as f32);
@@ -119,7 +119,7 @@ impl Canvas {
         }
     }
 
-    /// Names with a dot of their color each, from right to left; the last one ends at `end`.
+    /// Legend entries with a dot of their color each, from right to left; the last one ends at `end`.
     pub(crate) fn legend(&mut self, entries: &[(&str, Rgb)], end: [f32; 2], size: f32) {
         let [mut x, y] = end;
         for (name, color) in entries.iter().rev() {
@@ -138,7 +138,7 @@ impl Canvas {
         text.chars().map(|c| font.h_advance(font.glyph_id(c))).sum()
     }
 
-    /// A line of text from the left end of its base line.
+    /// A line of text; `anchor` is the left end of its baseline.
     pub(crate) fn text(&mut self, text: &str, anchor: [f32; 2], size: f32) {
         let mut x = anchor[0];
         let scale = PxScale::from(size);
@@ -150,9 +150,9 @@ impl Canvas {
         }
     }
 
-    /// The longest beginning of `text` that fits into `width` pixels, with an ellipsis where it was cut.
+    /// The longest prefix of `text` that fits into `width` pixels, with an ellipsis if it was cut.
     pub(crate) fn fitted(&self, text: &str, size: f32, width: f32) -> String {
-        /// No picture holds more letters; a title can have any number.
+        /// No picture has room for more characters; a title can have any number.
         const MOST_LETTERS: usize = 500;
         let mut shorter: String = text.chars().take(MOST_LETTERS).collect();
         if shorter.len() == text.len() && self.text_width(text, size) <= width {
@@ -187,7 +187,7 @@ impl Canvas {
 
     /// The canvas as a PNG file.
     pub(crate) fn png(&self) -> Result<Vec<u8>, PictureError> {
-        // Opaque all over, so that three channels say it all.
+        // Opaque everywhere, so three channels suffice.
         let colors = self.pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
         let (width, height) = (self.pixels.width(), self.pixels.height());
         let mut bytes = Vec::new();

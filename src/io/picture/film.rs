@@ -1,5 +1,4 @@
-//! A thin film: its profile, filled, over the wall. A film is so flat that heights are drawn larger than lengths;
-//! the picture says how much.
+//! A thin film: its profile, filled, over the wall. A film is so flat that heights are exaggerated; the picture states the factor.
 
 use super::canvas::{Canvas, PictureError};
 use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH, length_text, time_text};
@@ -7,10 +6,10 @@ use super::view::{heading, scale_bar};
 use crate::math::Vec2;
 use crate::snapshot::Snapshot;
 
-/// Height of the drawing in pixels, and the share of it that the film fills.
+/// Height of the drawing in pixels, and the fraction of it that the film fills.
 const TALL: f32 = 380.0;
 const FILLED: f64 = 0.9;
-/// Thickness of the wall, and room below it, in pixels.
+/// Thickness of the wall, and space below it, in pixels.
 const WALL: f32 = 24.0;
 const FOOT: f32 = 90.0;
 
@@ -19,7 +18,7 @@ pub(super) fn is_film(snapshot: &Snapshot<'_>) -> bool {
     snapshot.particles.fields.iter().any(|field| field.name == "film-height")
 }
 
-/// Draws the profile of a film, the line of its snapshot.
+/// Draws the profile of a film, given by the line of its snapshot.
 pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
     let profile: &[Vec2] = snapshot.interface.as_ref().map_or(&[], |lines| &lines.points);
     let (Some(first), Some(last)) = (profile.first(), profile.last()) else { return Err(PictureError::Empty) };
@@ -31,7 +30,7 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
         return Err(PictureError::Empty);
     }
     let floor = HEAD + TALL;
-    let place = |x: &Vec2| [RIM + (across * (x.x - first.x)) as f32, floor - (up * x.y) as f32];
+    let pixel = |x: &Vec2| [RIM + (across * (x.x - first.x)) as f32, floor - (up * x.y) as f32];
     let mut canvas = Canvas::new(WIDTH, (floor + WALL + FOOT).ceil() as u32)?;
     let mut next = 0;
     for column in 0..room as u32 {
@@ -40,13 +39,13 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
             next += 1;
         }
         let (a, b) = (profile[next], profile[(next + 1).min(profile.len() - 1)]);
-        let share = if b.x > a.x { (x - a.x) / (b.x - a.x) } else { 0.0 };
-        let tall = (up * (a.y + share * (b.y - a.y))).max(0.0) as f32;
+        let fraction = if b.x > a.x { (x - a.x) / (b.x - a.x) } else { 0.0 };
+        let tall = (up * (a.y + fraction * (b.y - a.y))).max(0.0) as f32;
         canvas.rectangle([RIM + column as f32, floor - tall], [1.0, tall], FLUIDS[0].color);
     }
     canvas.rectangle([RIM, floor], [room as f32, WALL], SOLID);
     canvas.polyline([[RIM, floor], [RIM + room as f32, floor]].into_iter(), 1.5, OUTLINE);
-    canvas.polyline(profile.iter().map(place), 3.0, INTERFACE);
+    canvas.polyline(profile.iter().map(pixel), 3.0, INTERFACE);
     heading(&mut canvas, title, &time_text(snapshot.time));
     let entries = [("wetting", FLUIDS[0].color), ("solid", SOLID), ("interface", INTERFACE)];
     canvas.legend(&entries, [WIDTH as f32 - RIM, 82.0], TEXT_SIZE);
@@ -58,7 +57,7 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
     canvas.png()
 }
 
-/// Three digits.
+/// Rounded to three digits.
 fn rounded(value: f64) -> f64 {
     let power = 10_f64.powf(value.log10().floor() - 2.0);
     (value / power).round() * power
@@ -86,9 +85,9 @@ mod tests {
         let png = film_picture(&snapshot, "A film").unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == FLUIDS[0].color).count();
-        // Two thirds of the box about a parabola, less its stroke.
-        let share = count as f64 / (FILLED * f64::from(TALL) * f64::from(WIDTH as f32 - 2.0 * RIM));
-        assert!((share - 2.0 / 3.0).abs() < 0.02, "{share}");
+        // Two thirds of the bounding box of a parabola, minus its stroke.
+        let fraction = count as f64 / (FILLED * f64::from(TALL) * f64::from(WIDTH as f32 - 2.0 * RIM));
+        assert!((fraction - 2.0 / 3.0).abs() < 0.02, "{fraction}");
         snapshot.interface = None;
         assert!(matches!(film_picture(&snapshot, ""), Err(PictureError::Empty)));
     }

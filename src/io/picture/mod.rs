@@ -1,4 +1,4 @@
-//! `picture.png`: particles of a pore, the profile of a film, or a map of areas.
+//! `picture.png`: particles in a pore, the profile of a film, or a map of areas.
 
 mod canvas;
 mod film;

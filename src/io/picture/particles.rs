@@ -1,7 +1,7 @@
 //! The particles by phase, the solids, the interface, a scale bar, title and time.
 //!
-//! Gray is solid: the fluids are drawn over it as dots that just touch. Particles `below-resolution` have a core of their own color. Leaves out
-//! every other field but `phase`; those are for ParaView.
+//! Gray is solid: the fluids are drawn over it as dots that just touch. The core of particles `below-resolution` has its own color. All fields other than
+//! `phase` are left to ParaView.
 
 use super::canvas::{Canvas, PictureError, Rgb};
 use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, PORE, RIM, SOLID, TEXT_SIZE, UNRESOLVED, WIDTH, time_text};
@@ -10,13 +10,13 @@ use crate::diagram::Frame;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
 
-/// Room below the drawing for scale bar and legend, in pixels.
+/// Space below the drawing for scale bar and legend, in pixels.
 const FOOT: f32 = 90.0;
-/// Radius of a dot over the particle spacing: half the diagonal of a square, so that dots on a lattice leave no hole.
+/// Radius of a dot relative to the particle spacing: half the diagonal of a square, so that dots on a lattice leave no gap.
 const COVER: f32 = 0.71;
-/// Radius of the inner dot, which shows where each particle is.
+/// Radius of the inner dot, which marks the particle position.
 const CORE: f32 = 0.38;
-/// Below this radius in pixels an inner dot is only noise.
+/// Below this radius in pixels, inner dots are not drawn.
 const SMALLEST_CORE: f32 = 1.5;
 
 /// Draws a snapshot and the outline of its solids as a PNG file.
@@ -49,7 +49,7 @@ pub(super) fn particle_picture(
     canvas.png()
 }
 
-/// The distance of neighboring particles in m: from the mean of the field `volume`, else from the area they fill.
+/// The distance between neighboring particles in m: from the mean of the field `volume`, else from the area they fill.
 fn particle_spacing(snapshot: &Snapshot<'_>, tight: &Bounds) -> f64 {
     let count = snapshot.particles.points.len() as f64;
     let volume = snapshot.particles.fields.iter().find(|field| field.name == "volume").map(|field| &field.values);
@@ -57,11 +57,11 @@ fn particle_spacing(snapshot: &Snapshot<'_>, tight: &Bounds) -> f64 {
         Some(Values::Scalar(volumes)) => volumes.iter().filter(|v| v.is_finite()).sum::<f64>() / count,
         _ => tight.area() / count,
     };
-    // Particles in a row fill no area, a single one has no extent at all: then any spacing is better than none.
+    // Particles in a row have no area, a single one has no extent: then any spacing will do.
     [mean.sqrt(), tight.size().max() / count].into_iter().find(|&spacing| spacing > 0.0).unwrap_or(1.0)
 }
 
-/// A field of whole numbers on the particles.
+/// An integer field of the particles.
 fn integers<'a>(snapshot: &'a Snapshot<'_>, name: &str) -> Option<&'a [i64]> {
     match snapshot.particles.fields.iter().find(|field| field.name == name).map(|field| &field.values) {
         Some(Values::Integer(values)) => Some(values),
@@ -74,7 +74,7 @@ fn phase_of(snapshot: &Snapshot<'_>, a: usize) -> Option<i64> {
     integers(snapshot, "phase").map_or(Some(FLUIDS[0].number), |phases| phases.get(a).copied())
 }
 
-/// The particles where their phase is too thin for the spacing.
+/// The particles where their phase is not resolved by the spacing.
 fn unresolved<'a>(snapshot: &'a Snapshot<'_>) -> impl Iterator<Item = Vec2> + 'a {
     let marks = integers(snapshot, "below-resolution").unwrap_or(&[]);
     marks.iter().zip(snapshot.particles.points.iter()).filter(|(mark, _)| **mark != 0).map(|(_, x)| *x)
@@ -97,7 +97,7 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
     canvas.circles(unresolved(snapshot).map(|x| view.place(x)), core, UNRESOLVED);
 }
 
-/// Lines, moved by each of `shifts` in m.
+/// Lines, translated by each of `shifts` in m.
 fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, (width, color): (f32, Rgb), shifts: &[Vec2]) {
     for line in &lines.lines {
         let points = || line.iter().filter_map(|&i| lines.points.get(i as usize));
@@ -105,7 +105,7 @@ fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, (width, color): 
     }
 }
 
-/// From a place in the domain to itself and to its images beyond periodic sides, in m.
+/// Translations from a point in the domain to itself and to its periodic images, in m.
 fn periods(frame: Option<&Frame>) -> Vec<Vec2> {
     let Some(frame) = frame else { return vec![Vec2::zeros()] };
     let [along_x, along_y] = [0, 1].map(|axis| {
@@ -115,7 +115,7 @@ fn periods(frame: Option<&Frame>) -> Vec<Vec2> {
     along_x.iter().flat_map(|&x| along_y.iter().map(move |&y| Vec2::new(x, y))).collect()
 }
 
-/// Names what is in the drawing, from the right.
+/// The legend, from the right.
 fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
     let y = view.bottom() + 38.0;
     let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));

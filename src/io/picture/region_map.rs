@@ -1,4 +1,4 @@
-//! A map of the plane: areas colored along a bar or by class, walls and lines over them, scale bar and legend.
+//! A map of the plane: areas colored along a bar or by class, with walls, lines, scale bar and legend.
 
 use super::canvas::{Canvas, PictureError, Rgb};
 use super::style::{INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH};
@@ -7,24 +7,24 @@ use crate::diagram::{RegionMap, Tone, colors};
 use crate::io::axes::short;
 use crate::math::{Bounds, Vec2};
 
-/// Room below the drawing in pixels: color bar with its numbers, scale bar and legend.
+/// Space below the drawing in pixels: color bar with its numbers, scale bar and legend.
 const FOOT: f32 = 190.0;
 /// Height of the color bar in pixels.
 const BAR: f32 = 26.0;
 
-/// The color at a share of the bar.
-fn color_at(bar: &[Rgb], share: f64) -> Rgb {
-    let place = share.clamp(0.0, 1.0) * (bar.len() - 1) as f64;
-    let below = (place.floor() as usize).min(bar.len() - 2);
-    let rest = place - below as f64;
+/// The color at a fraction of the bar.
+fn color_at(bar: &[Rgb], fraction: f64) -> Rgb {
+    let position = fraction.clamp(0.0, 1.0) * (bar.len() - 1) as f64;
+    let below = (position.floor() as usize).min(bar.len() - 2);
+    let remainder = position - below as f64;
     let mix = |i: usize| {
         let (a, b) = (f64::from(bar[below][i]), f64::from(bar[below + 1][i]));
-        (a + rest * (b - a)).round() as u8
+        (a + remainder * (b - a)).round() as u8
     };
     [mix(0), mix(1), mix(2)]
 }
 
-/// The color of strips, which are films of the wetting phase, and the least width in pixels that is seen.
+/// The color of strips, which are films of the wetting phase, and the smallest visible width in pixels.
 const STRIP: Rgb = colors::WETTING;
 const THINNEST: f32 = 2.0;
 /// The color of throats.
@@ -48,7 +48,7 @@ pub(crate) fn region_map_picture(region_map: &RegionMap, title: &str) -> Result<
         };
         canvas.polygon(area.boundary.iter().map(|&x| view.place(x.into())), color);
     }
-    // Thousands of grains leave no room for thick lines.
+    // Thousands of grains require thin lines.
     const FEW: usize = 500;
     let thin = if region_map.walls.len() < FEW { 1.0 } else { 0.4 };
     for (line, width) in &region_map.strips.1 {
@@ -78,26 +78,26 @@ fn color_bar(canvas: &mut Canvas, region_map: &RegionMap, top: f32) {
     const NUMBERS: u32 = 5;
     let width = WIDTH as f32 - 2.0 * RIM;
     let label = format!("{}:", region_map.label);
-    // Whole pixels: columns between two would let the ground shine through.
+    // Whole pixels: otherwise the background would show between columns.
     let from = (RIM + canvas.text_width(&label, TEXT_SIZE) + 20.0).round();
     canvas.text(&label, [RIM, top + 22.0], TEXT_SIZE);
     let length = RIM + width - from;
     for column in 0..length as u32 {
-        let share = f64::from(column) / f64::from(length);
-        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(region_map.bar, share));
+        let fraction = f64::from(column) / f64::from(length);
+        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(region_map.bar, fraction));
     }
     let [low, high] = region_map.range;
     for number in 0..NUMBERS {
-        let share = f64::from(number) / f64::from(NUMBERS - 1);
-        let value = low + share * (high - low);
+        let fraction = f64::from(number) / f64::from(NUMBERS - 1);
+        let value = low + fraction * (high - low);
         let text = short(format!("{value:.2e}").parse().unwrap_or(value));
         let wide = canvas.text_width(&text, TEXT_SIZE);
-        let x = (from + share as f32 * length - 0.5 * wide).min(RIM + width - wide);
+        let x = (from + fraction as f32 * length - 0.5 * wide).min(RIM + width - wide);
         canvas.text(&text, [x, top + BAR + 28.0], TEXT_SIZE);
     }
 }
 
-/// Names what is in the drawing, from the right.
+/// The legend, from the right.
 fn legend(canvas: &mut Canvas, region_map: &RegionMap, y: f32) {
     let is_there = |class: usize| region_map.areas.iter().any(|area| area.tone == Tone::Class(class));
     let classes = region_map.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
@@ -139,7 +139,7 @@ mod tests {
         let square = f64::from(WIDTH as f32 - 2.0 * RIM).powi(2) / 16.0;
         for color in [colors::SIZES[0], colors::SIZES[colors::SIZES.len() - 1], [204, 121, 167], SOLID] {
             let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == color).count() as f64;
-            // Lines take a few columns of each square, the legend adds a dot.
+            // Lines cover a few columns of each square, the legend adds a dot.
             assert!((count / square - 1.0).abs() < 0.03, "{color:?}: {}", count / square);
         }
     }

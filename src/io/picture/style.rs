@@ -1,18 +1,18 @@
-//! What all pictures have in common: sizes, colors, and lengths and times as people write them.
+//! Common to all pictures: sizes, colors, and readable lengths and times.
 
 use super::canvas::Rgb;
 use crate::diagram::colors;
 
 /// Width of the picture in pixels.
 pub(super) const WIDTH: u32 = 1200;
-/// White rim in pixels.
+/// White margin in pixels.
 pub(super) const RIM: f32 = 30.0;
-/// Room above the drawing for title and time, in pixels.
+/// Space above the drawing for title and time, in pixels.
 pub(super) const HEAD: f32 = 100.0;
-/// Heights of the letters in pixels.
+/// Font sizes in pixels.
 pub(super) const TITLE_SIZE: f32 = 32.0;
 pub(super) const TEXT_SIZE: f32 = 24.0;
-/// The scale bar takes at most this share of the drawing's width.
+/// Largest width of the scale bar relative to that of the drawing.
 pub(super) const BAR_SHARE: f64 = 0.25;
 
 pub(super) const SOLID: Rgb = colors::SOLID;
@@ -29,17 +29,17 @@ pub(super) struct Phase {
     pub(super) core: Rgb,
 }
 
-/// Number of the phase of a pore without a fluid, in the picture of a geometry.
+/// Number of the phase of a pore without fluid, in the picture of a geometry.
 pub(crate) const PORE: i64 = 3;
 
-/// What fills the pore.
+/// Phases in the pore.
 pub(super) const FLUIDS: [Phase; 3] = [
     Phase { number: 0, name: "wetting", color: colors::WETTING, core: shade(colors::WETTING) },
     Phase { number: 1, name: "non-wetting", color: colors::NON_WETTING, core: shade(colors::NON_WETTING) },
     Phase { number: PORE, name: "pore", color: colors::PORE, core: colors::PORE },
 ];
 
-/// A color a little darker.
+/// A slightly darker color.
 const fn shade(color: Rgb) -> Rgb {
     let mut shaded = color;
     let mut k = 0;
@@ -56,10 +56,10 @@ pub(crate) fn round_length(length: f64) -> f64 {
     [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&candidate| candidate <= length).unwrap_or(power)
 }
 
-/// A value with at most six digits and the prefix that suits it.
+/// A value with at most six digits and a suitable SI prefix.
 fn with_prefix(value: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 4] = [(1.0, ""), (1.0e-3, "m"), (1.0e-6, "µ"), (1.0e-9, "n")];
-    // A tenth of a thousandth of slack, so that a rounded 1 mm does not become 1000 µm.
+    // A relative tolerance, so that a rounded 1 mm does not become 1000 µm.
     let fits = |factor: f64| value.abs() >= factor * (1.0 - 1.0e-4);
     let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| fits(*factor)).unwrap_or((1.0, ""));
     let digits = format!("{:.5}", value / factor);

@@ -1,4 +1,4 @@
-//! What stands around the drawing of a picture: title, edge and scale bar.
+//! The surroundings of the drawing of a picture: title, border and scale bar.
 
 use super::canvas::Canvas;
 use super::style::{BAR_SHARE, BLACK, HEAD, OUTLINE, RIM, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text, round_length};
@@ -8,12 +8,12 @@ use crate::math::{Bounds, Vec2};
 /// Largest height of the drawing in pixels: a tall pore must still fit on a screen.
 const TALLEST: f32 = 1400.0;
 
-/// Room for arrows beyond an open side over the longer side of the drawing.
+/// Space for arrows outside an open side, relative to the longer side of the drawing.
 const BEYOND: f64 = 0.035;
 /// Arrows along an open side.
 const ARROWS: u32 = 3;
 
-/// From meters to pixels.
+/// Transformation from meters to pixels.
 pub(super) struct View {
     min: Vec2,
     /// Pixels per meter.
@@ -22,13 +22,13 @@ pub(super) struct View {
     pub(super) corner: [f32; 2],
     /// Width and height of the drawing.
     pub(super) size: [f32; 2],
-    /// Upper left and lower right corner of the part within open sides.
+    /// Upper left and lower right corner of the part inside the open sides.
     inner: [[f32; 2]; 2],
     open: [Option<Through>; 4],
 }
 
 impl View {
-    /// Room for a drawing, and for arrows beyond its open sides, where it ends.
+    /// The view of a drawing, with space for arrows outside its open sides.
     pub(super) fn new(drawing: Bounds, frame: Option<&Frame>) -> Self {
         let open = frame.map_or([None; 4], |frame| frame.open);
         let domain = frame.map_or(drawing, |frame| Bounds { min: frame.bounds[0].into(), max: frame.bounds[1].into() });
@@ -62,12 +62,12 @@ impl View {
         [self.corner[0] + from.x as f32, self.corner[1] + self.size[1] - from.y as f32]
     }
 
-    /// The lower end of the drawing.
+    /// The lower edge of the drawing.
     pub(super) fn bottom(&self) -> f32 {
         self.corner[1] + self.size[1]
     }
 
-    /// Wipes what reached over the drawing's edge, and draws the edge, arrows where a side is open.
+    /// Clears whatever extends over the border, and draws the border, with arrows at open sides.
     pub(super) fn frame(&self, canvas: &mut Canvas) {
         let [[left, top], [right, bottom]] = self.inner;
         canvas.wipe_outside([left, top], [right - left, bottom - top]);
@@ -86,15 +86,15 @@ impl View {
         }
     }
 
-    /// Arrows beyond an open side, in or out.
+    /// Arrows outside an open side, inwards or outwards.
     fn arrows(&self, canvas: &mut Canvas, [from, to]: [[f32; 2]; 2], outward: [f32; 2], through: Through) {
         let room = (BEYOND * f64::from(self.size[0].max(self.size[1]))) as f32;
         let (near, far) = (0.15 * room, 0.85 * room);
         let [tail, tip] = if through == Through::In { [far, near] } else { [near, far] };
         let head = if through == Through::In { 0.35 * room } else { -0.35 * room };
         for k in 1..=ARROWS {
-            let share = k as f32 / (ARROWS + 1) as f32;
-            let foot = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+            let fraction = k as f32 / (ARROWS + 1) as f32;
+            let foot = [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]));
             let at = |out: f32, aside: f32| {
                 [foot[0] + out * outward[0] + aside * outward[1], foot[1] + out * outward[1] + aside * outward[0]]
             };
@@ -105,14 +105,14 @@ impl View {
     }
 }
 
-/// Writes the title and what is said below it.
+/// Writes the title and the note below it.
 pub(super) fn heading(canvas: &mut Canvas, title: &str, note: &str) {
     let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
     canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
     canvas.text(note, [RIM, 82.0], TEXT_SIZE);
 }
 
-/// Draws a bar for a round length below a drawing of this width in m.
+/// Draws a scale bar of a round length below a drawing of this width in m.
 pub(super) fn scale_bar(canvas: &mut Canvas, scale: f64, width: f64, y: f32) {
     let length = round_length(BAR_SHARE * width);
     canvas.rectangle([RIM, y - 4.0], [(length * scale) as f32, 8.0], BLACK);

@@ -1,16 +1,16 @@
-//! A VTK XML file of vtkio's parts: its arrays, enumerations and writer, with what it lacks or gets wrong done here.
+//! A VTK XML file from parts of vtkio: its arrays, enumerations and writer; missing or faulty parts are implemented here.
 //!
-//! What stands here and not in vtkio 0.7.0-rc2, and why:
-//! - [`Document`], [`Piece`] and [`Arrays`], for its own types leave out `NumberOfPoints` and `NumberOfCells` where they are 0, which VTK wants to
-//!   read, and keep points and cells to themselves: only its model fills them, with unsigned numbers, of which meshio makes floating-point ones.
-//! - [`Compression::encode`], for it claims one block too many where an array fills its last block, which no reader accepts, and its zlib takes
-//!   25 times as long, since it hands over number by number.
-//! - Arrays without values, which it writes as a header with nothing behind it: readers of compressed files trip over that.
+//! Implemented here and not taken from vtkio 0.7.0-rc2:
+//! - [`Document`], [`Piece`] and [`Arrays`]: its own types omit `NumberOfPoints` and `NumberOfCells` if they are 0, which VTK requires, and points and cells
+//! are private: only its model fills them, with unsigned integers, which meshio converts to floating-point numbers.
+//! - [`Compression::encode`]: it declares one block too many if an array fills its last block, which no reader accepts, and its zlib takes 25 times as long,
+//! since it is fed number by number.
+//! - Empty arrays, which it writes as a header without data: readers of compressed files fail on that.
 //!
-//! It writes no field data either: the time of a file stands in the `.pvd`.
+//! It writes no field data: the time of a file is in the `.pvd`.
 //!
-//! Layout of a compressed array: number of blocks, their size, size of the last one where it is shorter (else 0), compressed
-//! size of each, all as 64 bits; then, in a base 64 of their own, the blocks. Source: VTK File Formats, chapter on XML formats, Kitware.
+//! Layout of a compressed array: number of blocks, their size, size of the last one if it is shorter (else 0), compressed size of each, all as 64 bits; then,
+//! in a separate base 64 string, the blocks. Source: VTK File Formats, chapter on XML formats, Kitware.
 
 use std::io::Write;
 
@@ -26,10 +26,10 @@ use vtkio::xml::{
 
 use super::{Compression, VtkError};
 
-/// Bytes of a block before compression, as VTK itself has them.
+/// Bytes of a block before compression, as in VTK itself.
 const BLOCK: usize = 32768;
 
-/// How numbers become bytes: little endian behind their number of bytes, which is of this size.
+/// Binary form of numbers: little endian, after their byte count, which has this size.
 const PLAIN: EncodingInfo = EncodingInfo {
     byte_order: ByteOrder::LittleEndian,
     header_type: ScalarType::UInt64,
@@ -62,7 +62,7 @@ struct Grid {
     piece: Piece,
 }
 
-/// All that a file holds.
+/// The content of a file.
 #[derive(Serialize)]
 #[serde(rename_all = "PascalCase")]
 pub(super) struct Piece {
@@ -83,7 +83,7 @@ pub(super) struct Arrays {
 }
 
 impl Piece {
-    /// The file with this piece, whose arrays are compressed so.
+    /// The file with this piece, with compressed arrays.
     pub(super) fn into_file(self, compression: Compression) -> Result<Vec<u8>, VtkError> {
         let document = Document {
             kind: DataSetType::UnstructuredGrid,
@@ -106,11 +106,11 @@ impl Compression {
         }
     }
 
-    /// Numbers under a name, so many in a row.
+    /// A named array with `num_comp` components.
     pub(super) fn array(self, name: &str, num_comp: u32, values: IOBuffer) -> Result<DataArray, VtkError> {
         let scalar_type = values.scalar_type().into();
         let (format, text) = if values.is_empty() {
-            // A space, for meshio expects some text.
+            // A space, because meshio expects some text.
             (DataArrayFormat::Ascii, " ".to_owned())
         } else {
             let text = values.into_bytes_with_size_encoded(PLAIN, |bytes, text| self.encode(bytes, text));
@@ -120,7 +120,7 @@ impl Compression {
         Ok(DataArray { scalar_type, name: name.to_owned(), num_comp, format, data, ..DataArray::default() })
     }
 
-    /// The text of bytes that stand behind their number.
+    /// The text of bytes that are preceded by their count.
     fn encode(self, sized: &[u8], text: &mut String) {
         let bytes = &sized[HEADER..];
         let packed = match self {
@@ -135,7 +135,7 @@ impl Compression {
     }
 }
 
-/// The blocks by zlib. Its state is large, so that all blocks share one.
+/// The blocks by zlib. Its state is large, so all blocks share one.
 fn deflated(bytes: &[u8]) -> Vec<Vec<u8>> {
     let mut encoder = ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
     let packed = bytes.chunks(BLOCK).map(|block| {

@@ -1,42 +1,42 @@
-//! What came out of a comparison.
+//! Results of a comparison.
 
 use serde::Serialize;
 
-/// What came out of one of both.
+/// Results of one of the two cases.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Side {
-    /// Saturations of the wetting phase.
+    /// Wetting saturations.
     pub saturation: Vec<f64>,
-    /// Capillary pressures p_n - p_w in Pa at them; none where there is no pressure.
+    /// Capillary pressures p_n - p_w in Pa at them; `None` where there is no pressure.
     pub capillary_pressure_pa: Vec<Option<f64>>,
     /// Of displacements in time: times in s of these saturations.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub time_s: Vec<f64>,
-    /// Of displacements in time: pressures at the inlet less those at the outlet in Pa.
+    /// Of displacements in time: inlet pressures minus outlet pressures in Pa.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pressure_difference_pa: Vec<Option<f64>>,
     /// Of displacements in time: when the invading phase reached the outlet, in s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub breakthrough_time_s: Option<f64>,
-    /// The largest capillary pressure of a drainage, or the smallest one of an imbibition, until the invading phase reached the outlet, in Pa, where it did.
+    /// Largest capillary pressure of a drainage, or smallest one of an imbibition, until breakthrough, in Pa, if there is one.
     pub breakthrough_pressure_pa: Option<f64>,
-    /// Saturation then.
+    /// Wetting saturation at breakthrough.
     pub saturation_at_breakthrough: Option<f64>,
-    /// Permeability along x in m²; none where it is not measured.
+    /// Permeability along x in m²; `None` if not measured.
     pub permeability_m2: Option<f64>,
     /// Wall time in s.
     pub wall_time_s: f64,
-    /// Processor time in s over all threads; none where the system does not tell.
+    /// Processor time in s over all threads; `None` if the system does not report it.
     pub processor_time_s: Option<f64>,
     /// Pores, or particles.
     pub unknowns: usize,
     /// Events, or time steps.
     pub steps: u64,
-    /// What a reader must know before trusting it.
+    /// What a reader must know before trusting the results.
     pub warnings: Vec<String>,
 }
 
-/// Both at one saturation.
+/// Both at equal saturation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct AtSaturation {
     /// Saturations of the network and of the direct simulation.
@@ -57,10 +57,10 @@ pub(crate) struct Comparison {
     pub(crate) network: Side,
     /// The direct simulation.
     pub(crate) direct: Side,
-    /// Whether both go in time.
+    /// Whether both displacements are in time.
     #[serde(skip)]
     pub(crate) is_in_time: bool,
-    /// Spearman's rank correlation of the order in which elements were filled that both filled after the beginning; none for fewer than three.
+    /// Spearman's rank correlation of the filling order of the elements that both filled after the start; `None` for fewer than three.
     pub(crate) rank_correlation: Option<f64>,
     /// Number of these elements.
     pub(crate) elements_in_both: usize,

@@ -1,4 +1,4 @@
-//! The direct simulation of a comparison: an ordinary run in a folder of its own, each record of which is compared with the network.
+//! The direct simulation of a comparison: an ordinary run in its own folder, each record of which is compared with the network.
 
 use std::sync::atomic::AtomicBool;
 
@@ -23,10 +23,10 @@ use crate::sph::measures::open::{DRIVING_PRESSURE, PRESSURE_DIFFERENCE};
 const NON_WETTING: i64 = 1;
 /// Number of wall particles.
 const SOLID: i64 = 2;
-/// Folder of the run in that of the comparison.
+/// Subfolder of the run in that of the comparison.
 pub(crate) const RUN: &str = "direct";
 
-/// Runs the direct simulation of a task to its end, or goes on with it.
+/// Runs the direct simulation of a task to its end, or resumes it.
 pub(crate) fn track(
     task: &Task<'_>,
     (state, grid): (&NetworkState, &Grid),
@@ -58,27 +58,27 @@ pub(crate) fn track(
     Ok(track)
 }
 
-/// When the invading phase reached the outlet, in s, and the saturation of the wetting phase then.
+/// Time of breakthrough in s, and the wetting saturation then.
 fn breakthrough(report: &Report, invading: FluidPhase) -> Option<[f64; 2]> {
     let value = |name: &str| report.measures.get(name).and_then(|reading| reading.value);
     let (time, saturation) = (value("breakthrough-time-s")?, value("saturation-at-breakthrough")?);
     Some([time, if invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation }])
 }
 
-/// The case with so many records of its series: each is a state that is compared.
+/// The case with `records` rows of its series: each is a compared state.
 fn recorded(case: &Case, records: usize) -> Case {
     let mut case = case.clone();
     case.output.series_every = case.end / records as f64;
     case
 }
 
-/// Notes the state at each record, and tells another of each step.
+/// Stores the state at each record, and passes each step on to another watcher.
 struct Recorder<'a> {
     watcher: &'a mut dyn Watcher,
     states: States,
     grid: &'a Grid,
     invading: FluidPhase,
-    /// Column of the pressure that drives, where the case has it.
+    /// Column of the driving pressure, if the case has it.
     drive: &'static str,
 }
 
@@ -110,7 +110,7 @@ impl Track {
         track
     }
 
-    /// Adds a record, and notes which elements are filled by more than half of their cells.
+    /// Adds a record, and notes which elements are invaded in more than half of their cells.
     fn add(&mut self, record: Record, grid: &Grid) {
         let mut shares = vec![[0_usize; 2]; self.filled.len()];
         for (&(_, element), &invaded) in grid.cells.iter().zip(&record.invaded) {
@@ -129,7 +129,7 @@ impl Track {
 fn as_record(solver: &dyn Solver, grid: &Grid, (invading, drive): (FluidPhase, &str)) -> Record {
     let sample = solver.sample();
     let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
-    // Where the pressure rises in steps, it is the one given, of the invading phase less the other.
+    // If the pressure rises in steps, it is the prescribed one, of the invading phase minus the other.
     let sign = if invading == FluidPhase::NonWetting || drive == DRIVING_PRESSURE { 1.0 } else { -1.0 };
     let given = Some(sign * value(drive)).filter(|pressure| pressure.is_finite());
     Record {
@@ -140,26 +140,26 @@ fn as_record(solver: &dyn Solver, grid: &Grid, (invading, drive): (FluidPhase, &
     }
 }
 
-/// For each cell whether the nearest fluid particle is of the invading phase.
+/// For each cell, whether the nearest fluid particle is of the invading phase.
 fn invaded(snapshot: &Snapshot<'_>, grid: &Grid, invading: FluidPhase) -> Vec<bool> {
     let wanted = if invading == FluidPhase::NonWetting { NON_WETTING } else { 0 };
     let phases = snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values);
     let Some(Values::Integer(phases)) = phases else { return vec![false; grid.cells.len()] };
     let (cell, [columns, rows]) = (grid.cell(), grid.counts);
-    let place = |x: Vec2| {
+    let cell_at = |x: Vec2| {
         let at = (x - grid.bounds.min).component_div(&cell);
         [at.x.floor() as i64, at.y.floor() as i64]
     };
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); columns * rows];
     for (a, &x) in snapshot.particles.points.iter().enumerate().filter(|(a, _)| phases[*a] != SOLID) {
-        let [i, j] = place(x);
+        let [i, j] = cell_at(x);
         if (0..columns as i64).contains(&i) && (0..rows as i64).contains(&j) {
             around[j as usize * columns + i as usize].push(a);
         }
     }
     let nearest = |x: Vec2| {
-        let [i, j] = place(x);
-        // Rings of cells around: one farther than the first that holds a particle, which may be nearer there.
+        let [i, j] = cell_at(x);
+        // Rings of cells: one beyond the first that has a particle, because a nearer one may be there.
         let mut found: Option<(f64, usize)> = None;
         let mut last = i64::from(u16::MAX);
         let mut ring = 0;
@@ -186,7 +186,7 @@ fn invaded(snapshot: &Snapshot<'_>, grid: &Grid, invading: FluidPhase) -> Vec<bo
     grid.cells.iter().map(|&(cell, _)| nearest(grid.middle(cell))).collect()
 }
 
-/// The places of a ring of squares around a square.
+/// The index offsets of a square ring.
 fn square(ring: i64) -> impl Iterator<Item = (i64, i64)> {
     (-ring..=ring)
         .flat_map(move |j| (-ring..=ring).map(move |i| (i, j)))

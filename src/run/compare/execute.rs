@@ -1,4 +1,4 @@
-//! A comparison as a run with a folder and a report, so that a study can hold many of them side by side.
+//! A comparison as a run with a folder and a report, so that a study can have many of them side by side.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -15,7 +15,7 @@ use crate::run::report::{Machine, Reached, Report, SolverReport, Status, WallTim
 use crate::run::simulation::Watcher;
 use crate::solver::{Clock, Series};
 
-/// A comparison that has no report.
+/// Why a comparison has no report.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ExecuteError {
     /// Its folder, or a file in it.
@@ -29,7 +29,7 @@ pub(crate) enum ExecuteError {
 /// Compares both cases of a task and writes the files of the comparison and `report.json`; `resolved` is the text of both cases.
 ///
 /// # Errors
-/// [`ExecuteError`]. A solver that fails and an interrupt are no errors here: the report says so.
+/// [`ExecuteError`]. A failing solver and an interrupt are not errors here: the report states them.
 pub(crate) fn execute(
     task: &Task<'_>,
     resolved: &str,
@@ -55,7 +55,7 @@ pub(crate) fn execute(
     report.status = status;
     report.error = error;
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
-    // That of the direct simulation holds what processes before this one took.
+    // That of the direct simulation includes previous processes.
     let of_both = found.as_ref().and_then(|it| Some(it.network.processor_time_s? + it.direct.processor_time_s?));
     report.cpu_s = of_both.or(processor_time.seconds());
     if let Some(found) = &found {
@@ -65,7 +65,7 @@ pub(crate) fn execute(
     Ok(report)
 }
 
-/// The report of what was found; that of nothing where there is none.
+/// The report of a comparison; that without results if it is `None`.
 fn report(task: &Task<'_>, resolved: &str, found: Option<&Comparison>) -> Report {
     let (none, pair) = (Side::default(), &task.pair);
     let [network, direct] = found.map_or([&none; 2], |found| [&found.network, &found.direct]);

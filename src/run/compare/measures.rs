@@ -1,4 +1,4 @@
-//! What a comparison tells in numbers, as measures of a run.
+//! The numbers of a comparison, as measures of a run.
 
 use super::comparison::{Comparison, Side};
 use crate::solver::{self, Measure};
@@ -39,7 +39,7 @@ pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
     ]
 }
 
-/// A measure without an error bar; what was not measured is NaN.
+/// A measure without an uncertainty; NaN if it was not measured.
 fn measure(name: &str, value: Option<f64>, unit: &str, method: &str) -> Measure {
     solver::measure(name, value.unwrap_or(f64::NAN), unit, method)
 }

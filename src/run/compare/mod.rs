@@ -1,8 +1,8 @@
 //! A network and a direct simulation of one geometry, side by side.
 //!
-//! Both are cases of their own. The network goes from event to event, the direct simulation from record to record. At equal saturations the elements
-//! that each has filled are compared, cell by cell on one grid; so are the pressures, the order in which elements were filled, and
-//! what both took. Of a network its first half cycle counts.
+//! Both are separate cases. The network proceeds from event to event, the direct simulation from record to record. At equal saturations the invaded elements
+//! are compared, cell by cell on one grid; so are the pressures, the filling order of the elements, and the cost. Only the first half cycle of a network
+//! counts.
 
 mod comparison;
 mod direct;

@@ -15,7 +15,7 @@ use crate::network::state;
 use crate::run::setup::SetupError;
 use crate::solver::{Series, Solver};
 
-/// The present state; none where nothing is displaced.
+/// The present state; `None` if there is no displacement.
 pub(crate) fn state(solver: &NetworkSolver) -> Option<NetworkState> {
     let cycles = solver.cycles()?;
     Some(state::state(solver.config(), cycles.half_cycles(), &cycles.moment()))
@@ -38,7 +38,7 @@ pub(crate) fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, Co
     Ok(Track { records, filled, ..totals(solver) })
 }
 
-/// What a network took, its permeability and its warnings.
+/// The cost of a network, its permeability and its warnings.
 fn totals(solver: &dyn Solver) -> Track {
     let statistics = solver.statistics();
     let wall_time_s = statistics.parts.iter().map(|part| part.seconds).sum();
@@ -49,7 +49,7 @@ fn totals(solver: &dyn Solver) -> Track {
         records: Vec::new(),
         filled: Vec::new(),
         wall_time_s,
-        // One thread does it all.
+        // It runs in a single thread.
         processor_time_s: Some(wall_time_s),
         unknowns: statistics.unknowns,
         steps: statistics.steps,
@@ -68,14 +68,14 @@ pub(crate) fn track_in_time(
     let solver = setup::build_in_time(case, wanted).map_err(SetupError::from)?;
     let mut solver = solver.ok_or(CompareError::NoNetwork)?;
     let mut found = vec![record_in_time(&solver, grid)];
-    let mut filled: Vec<Option<usize>> = solver.shares().map(|share| (share > 0.5).then_some(0)).collect();
+    let mut filled: Vec<Option<usize>> = solver.shares().map(|fraction| (fraction > 0.5).then_some(0)).collect();
     for number in 1..=records {
         let until = end * number as f64 / records as f64;
         while !solver.is_done() && solver.time() < until {
             solver.step(until)?;
         }
         found.push(record_in_time(&solver, grid));
-        for (filled, _) in filled.iter_mut().zip(solver.shares()).filter(|(_, share)| *share > 0.5) {
+        for (filled, _) in filled.iter_mut().zip(solver.shares()).filter(|(_, fraction)| *fraction > 0.5) {
             filled.get_or_insert(number);
         }
         if solver.is_done() {
@@ -93,7 +93,7 @@ fn record_in_time(solver: &DynamicSolver, grid: &Grid) -> Record {
     let sample = solver.sample();
     let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
     let shares: Vec<f64> = solver.shares().collect();
-    // Nothing has flowed yet at the beginning.
+    // There is no flow yet at the start.
     let pressure = if solver.steps() > 0 { value("pressure_difference_Pa") } else { f64::NAN };
     Record {
         time: solver.time(),
@@ -132,7 +132,7 @@ pub(crate) fn outlet_elements(state: &NetworkState) -> Vec<usize> {
     let Some(side) = state.sides.iter().position(|&side| side == Side::Outlet) else { return Vec::new() };
     let [min, max] = state.domain_m.map(Vec2::from);
     let (axis, at) = (side / 2, if side.is_multiple_of(2) { min[side / 2] } else { max[side / 2] });
-    // Openings lie on the side, within the rounding of numbers that were computed.
+    // Openings lie on the side, within rounding errors.
     let same = 1e-9 * (max - min).max();
     let lies_there = |curve: &Curve| match curve {
         Curve::Segment { a, b } => (a[axis] - at).abs() < same && (b[axis] - at).abs() < same,

@@ -1,4 +1,4 @@
-//! The page of a comparison: one HTML file without outside resources.
+//! The page of a comparison: one HTML file without external resources.
 
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ pub(crate) fn page(comparison: &Comparison) -> String {
 
 fn table(comparison: &Comparison) -> String {
     let number = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.4e}"));
-    let share = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.3}"));
+    let fraction = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.3}"));
     let seconds = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.2}"));
     let both = [&comparison.network, &comparison.direct];
     let row = |name: &str, cells: [String; 2]| {
@@ -49,7 +49,7 @@ fn table(comparison: &Comparison) -> String {
     };
     let rows = [
         first,
-        row("saturation at breakthrough", of(&|side| share(side.saturation_at_breakthrough))),
+        row("saturation at breakthrough", of(&|side| fraction(side.saturation_at_breakthrough))),
         row("permeability along x in m&sup2;", of(&|side| number(side.permeability_m2))),
         row("pores; particles", of(&|side| side.unknowns.to_string())),
         row("events; time steps", of(&|side| side.steps.to_string())),
@@ -61,8 +61,8 @@ fn table(comparison: &Comparison) -> String {
          elements were filled: {}. Overlap of the invaded areas, mean over all records: {}.</p>\n",
         rows.concat(),
         comparison.elements_in_both,
-        share(comparison.rank_correlation),
-        share(comparison.mean_overlap)
+        fraction(comparison.rank_correlation),
+        fraction(comparison.mean_overlap)
     )
 }
 
@@ -75,8 +75,8 @@ fn warnings(comparison: &Comparison) -> String {
     if all.is_empty() { all } else { format!("<h2>Warnings</h2>\n<ul>\n{all}</ul>\n") }
 }
 
-/// Both curves on one pair of axes each: capillary pressure over saturation; of displacements in time saturation over time, and the pressure difference over
-/// time and over saturation.
+/// Both curves in common axes: capillary pressure over saturation; of displacements in time, saturation over time, and the pressure difference over time and
+/// over saturation.
 pub(crate) fn diagrams(comparison: &Comparison) -> Vec<Diagram> {
     if comparison.is_in_time { in_time(comparison) } else { vec![quasi_static(comparison)] }
 }
@@ -85,7 +85,7 @@ fn trace(name: &str, points: Vec<[f64; 2]>) -> Trace {
     Trace { name: name.to_owned(), stroke: Stroke::Full, points }
 }
 
-/// Pairs where there is a pressure.
+/// Pairs for which there is a pressure.
 fn known(over: &[f64], pressures: &[Option<f64>]) -> Vec<[f64; 2]> {
     over.iter().zip(pressures).filter_map(|(over, pressure)| Some([*over, (*pressure)?])).collect()
 }
@@ -94,7 +94,7 @@ const SATURATION: &str = "saturation of the wetting phase";
 
 fn quasi_static(comparison: &Comparison) -> Diagram {
     let points = |side: &Side| known(&side.saturation, &side.capillary_pressure_pa);
-    // Of the network the pressure rises at constant saturation, and the saturation changes at constant pressure.
+    // In the network, the pressure rises at constant saturation, and the saturation changes at constant pressure.
     let network = points(&comparison.network);
     let first = comparison.network.saturation.first().copied();
     let before = first.into_iter().chain(network.iter().map(|point| point[0]));

@@ -1,4 +1,4 @@
-//! A network and a direct simulation that are to be compared, and why they cannot be.
+//! A pair of network and direct simulation to compare, and why they cannot be compared.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::run::execute::{Mode, RunError};
 use crate::run::setup::SetupError;
 use crate::solver::SolverError;
 
-/// A network and a direct simulation that are compared.
+/// A network and a direct simulation to compare.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pair<'a> {
     /// The case of the network.
@@ -21,12 +21,12 @@ pub(crate) struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// Whether the network goes in time.
+    /// Whether the displacement of the network is in time.
     pub(crate) fn is_in_time(&self) -> bool {
         self.displacement().is_some_and(|displacement| displacement.dynamic.is_some())
     }
 
-    /// What the network is to displace.
+    /// The displacement of the network.
     pub(crate) fn displacement(&self) -> Option<&NetworkDisplacement> {
         match &self.network.model {
             Model::Network(network) => network.displacement.as_ref(),
@@ -40,33 +40,33 @@ impl Pair<'_> {
 pub(crate) struct Task<'a> {
     /// Both cases.
     pub(crate) pair: Pair<'a>,
-    /// The case file of the direct simulation with all that was filled in.
+    /// The case file of the direct simulation with all defaults filled in.
     pub(crate) resolved: &'a str,
     /// The folder, which exists.
     pub(crate) folder: &'a Path,
-    /// Whether the direct simulation is begun or taken up.
+    /// Whether the direct simulation starts anew or is resumed.
     pub(crate) mode: Mode,
 }
 
 /// One of both cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Of {
-    /// That of the network.
+    /// The network.
     Network,
-    /// That of the direct simulation.
+    /// The direct simulation.
     Direct,
 }
 
 /// Two cases that cannot be compared, or a run that failed.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CompareError {
-    /// The first case is no network with a displacement.
+    /// The first case is not a network with a displacement.
     #[error("expected a network with a displacement; give the case [network] with an inlet")]
     NoNetwork,
-    /// The network counts a part of the pore space alone.
+    /// The network counts only a part of the pore space.
     #[error("a comparison is at equal saturations of the whole pore space; leave [network.region] out")]
     Region,
-    /// The second case is no direct simulation of two fluids.
+    /// The second case is not a direct simulation of two fluids.
     #[error("expected a direct simulation of two fluids; give the case [sph] with both phases")]
     NoDirect,
     /// The cases have different geometries.
@@ -79,7 +79,7 @@ pub(crate) enum CompareError {
     OtherSides {
         /// The side.
         side: &'static str,
-        /// What is different.
+        /// The difference.
         misfit: String,
     },
     /// A case cannot be set up.
@@ -91,7 +91,7 @@ pub(crate) enum CompareError {
     /// The direct simulation failed.
     #[error("{0}")]
     Failed(String),
-    /// It was asked to stop, and can be taken up.
+    /// It was stopped on request, and can be resumed.
     #[error("interrupted")]
     Interrupted,
     /// The folder of the direct simulation, or a file in it.
@@ -100,7 +100,7 @@ pub(crate) enum CompareError {
 }
 
 impl CompareError {
-    /// What is wrong with which of both cases, at the keys that a user would change; none where a run failed or was stopped.
+    /// What is wrong with which of both cases, at the keys that a user would change; `None` if a run failed or was stopped.
     pub(crate) fn problems(&self) -> Option<(Of, Vec<Problem>)> {
         let direct = |key: &str| Some((Of::Direct, vec![Problem::of_text(key, &self.to_string())]));
         match self {

@@ -1,5 +1,5 @@
-//! Two displacements at one saturation as SVG: the network on the left, the direct simulation on the right, each a map of the phases under the outline of
-//! the solids.
+//! Two displacements at one saturation as SVG: the network on the left, the direct simulation on the right, each a map of the phases under the outline of the
+//! solids.
 
 use std::fmt::Write;
 
@@ -13,23 +13,23 @@ use crate::snapshot::Lines;
 /// Width of a map in pixels of the page, and the gap between both.
 const WIDTH: f64 = 468.0;
 const GAP: f64 = 24.0;
-/// Room for titles above the maps, and for scale bar and legend below them.
+/// Space for titles above the maps, and for scale bar and legend below them.
 const HEAD: f64 = 30.0;
 const FOOT: f64 = 46.0;
-/// The scale bar takes at most this share of a map.
+/// Largest width of the scale bar relative to that of a map.
 const BAR: f64 = 0.25;
 
-/// What both maps have in common.
+/// Common to both maps.
 pub(crate) struct Maps<'a> {
     /// Their cells.
     pub(crate) grid: &'a Grid,
     /// The outline of the solids in m.
     pub(crate) outline: &'a Lines<'a>,
-    /// The phase that comes in.
+    /// The invading phase.
     pub(crate) invading: FluidPhase,
 }
 
-/// Both maps; `invaded` tells for each cell of the pore whether it holds the invading phase, `saturation` what the wetting phase holds.
+/// Both maps; `invaded` states for each cell of the pore whether it has the invading phase, `saturation` is that of the wetting phase.
 pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) -> String {
     let [columns, rows] = maps.grid.counts;
     let size = maps.grid.bounds.size();
@@ -39,7 +39,7 @@ pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) 
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
          font-family=\"sans-serif\" font-size=\"15\"><rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"white\"/>"
     );
-    let places = Placing { maps, tall };
+    let placing = Placing { maps, tall };
     let [invading, defending] = match maps.invading {
         FluidPhase::Wetting => [colors::WETTING, colors::NON_WETTING],
         FluidPhase::NonWetting => [colors::NON_WETTING, colors::WETTING],
@@ -69,7 +69,7 @@ pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) 
             "</g><g transform=\"translate({left:.0} {HEAD:.0})\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\">\
              <path d=\"{}\"/><path stroke-width=\"1\" d=\"M0 0H{WIDTH:.0}V{tall:.1}H0Z\"/></g>",
             hex(colors::WALL),
-            places.outline()
+            placing.outline()
         );
     }
     let below = HEAD + tall + 18.0;
@@ -96,12 +96,12 @@ pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) 
     svg + "</svg>"
 }
 
-/// A color as SVG writes it.
+/// A color in SVG notation.
 fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// From meters to pixels of a map.
+/// Transformation from meters to pixels of a map.
 struct Placing<'a> {
     maps: &'a Maps<'a>,
     tall: f64,
@@ -111,9 +111,9 @@ impl Placing<'_> {
     /// The outline of the solids within the domain as a path.
     fn outline(&self) -> String {
         let bounds = &self.maps.grid.bounds;
-        let place = |x: Vec2| {
-            let share = (x - bounds.min).component_div(&bounds.size());
-            [WIDTH * share.x, self.tall * (1.0 - share.y)]
+        let pixel = |x: Vec2| {
+            let fraction = (x - bounds.min).component_div(&bounds.size());
+            [WIDTH * fraction.x, self.tall * (1.0 - fraction.y)]
         };
         let slack = 1.0e-9 * bounds.size().max();
         let is_inside = |x: &Vec2| bounds.grown(slack).contains(*x);
@@ -121,19 +121,19 @@ impl Placing<'_> {
         for line in &self.maps.outline.lines {
             let mut pen_is_down = false;
             for x in line.iter().filter_map(|&i| self.maps.outline.points.get(i as usize)) {
-                let [left, top] = place(*x);
-                let is_seen = is_inside(x);
-                if is_seen {
+                let [left, top] = pixel(*x);
+                let is_visible = is_inside(x);
+                if is_visible {
                     let _ = write!(path, "{}{left:.1} {top:.1}", if pen_is_down { "L" } else { "M" });
                 }
-                pen_is_down = is_seen;
+                pen_is_down = is_visible;
             }
         }
         path
     }
 }
 
-/// The cells of one phase, those side by side in a row as one rectangle.
+/// The cells of one phase, adjacent ones of a row merged into one rectangle.
 fn runs(grid: &Grid, invaded: &[bool], wanted: bool) -> String {
     let [columns, rows] = grid.counts;
     let chosen = grid.cells.iter().zip(invaded).filter(|(_, invaded)| **invaded == wanted).map(|((cell, _), _)| *cell);
@@ -141,7 +141,7 @@ fn runs(grid: &Grid, invaded: &[bool], wanted: bool) -> String {
     let mut path = String::new();
     for run in cells.chunk_by(|a, b| a + 1 == *b && a / columns == b / columns) {
         let (x, row, length) = (run[0] % columns, run[0] / columns, run.len());
-        // The first row of cells lies at the bottom.
+        // The first row of cells is at the bottom.
         let _ = write!(path, "M{x} {}h{length}v1h-{length}z", rows - 1 - row);
     }
     path

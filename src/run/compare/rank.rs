@@ -1,6 +1,6 @@
-//! Numbers that tell how alike two displacements are.
+//! Measures of similarity of two displacements.
 
-/// Spearman's rank correlation of pairs, ties by their mean rank; none for fewer than three pairs and where one side is all the same.
+/// Spearman's rank correlation of pairs, ties by their mean rank; `None` for fewer than three pairs and if one side is constant.
 pub(crate) fn correlation(pairs: &[[usize; 2]]) -> Option<f64> {
     if pairs.len() < 3 {
         return None;
@@ -12,7 +12,7 @@ pub(crate) fn correlation(pairs: &[[usize; 2]]) -> Option<f64> {
     (scale > 0.0).then(|| sum(&a, &b) / scale)
 }
 
-/// The rank of each value from 1 on; equal values share the mean of theirs.
+/// The rank of each value, from 1; equal values share the mean of theirs.
 fn ranks(values: Vec<usize>) -> Vec<f64> {
     let rank = |value: &usize| {
         let below = values.iter().filter(|other| *other < value).count();
@@ -22,7 +22,7 @@ fn ranks(values: Vec<usize>) -> Vec<f64> {
     values.iter().map(rank).collect()
 }
 
-/// Number of places that are in both over that of places in either; 1 where there are none.
+/// Number of cells in both divided by that in either (Jaccard index); 1 if there are none.
 pub(crate) fn overlap(one: &[bool], other: &[bool]) -> f64 {
     let count = |keep: fn(bool, bool) -> bool| one.iter().zip(other).filter(|(a, b)| keep(**a, **b)).count() as f64;
     let either = count(|a, b| a || b);

@@ -1,4 +1,4 @@
-//! Both displacements side by side: what came out of each, and at equal saturations.
+//! Both displacements side by side: the results of each, and at equal saturations.
 
 use std::sync::atomic::AtomicBool;
 
@@ -24,8 +24,8 @@ pub(crate) fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
     fitting(pair).map(|_| ())
 }
 
-/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, which is reported to `watcher`; it can be taken
-/// up. The network is run again: it takes seconds.
+/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, which is reported to `watcher`; it can be resumed. The
+/// network is run again: it takes seconds.
 pub(crate) fn compare(
     task: &Task<'_>,
     interrupt: &AtomicBool,
@@ -55,7 +55,7 @@ pub(crate) fn compare(
     })
 }
 
-/// The network and its first state, where the direct simulation has the same shapes and sides.
+/// The network and its first state, if the direct simulation has the same shapes and sides.
 fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareError> {
     let Model::Network(wanted) = &pair.network.model else { return Err(CompareError::NoNetwork) };
     if wanted.region.is_some() {
@@ -72,8 +72,8 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
         return Err(CompareError::OtherGeometry(misfit));
     }
     if pair.network.depth != pair.direct.depth {
-        let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
-        let misfit = format!("the network has {}, and the direct simulation {}", told(pair.network), told(pair.direct));
+        let text = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
+        let misfit = format!("the network has {}, and the direct simulation {}", text(pair.network), text(pair.direct));
         return Err(CompareError::OtherGeometry(misfit));
     }
     if let Some((side, misfit)) = state.misfit_of_sides(&sph.sides) {
@@ -114,7 +114,7 @@ fn side(track: &Track, outlet: &[usize], (is_in_time, invading): (bool, FluidPha
         };
     }
     let through = outlet.iter().filter_map(|&element| track.filled[element]).min().filter(|&record| record > 0);
-    // As far as the pressure had to go: p_n - p_w rises in a drainage and falls in an imbibition.
+    // The extreme pressure: p_n - p_w rises in a drainage and falls in an imbibition.
     let farther = match invading {
         FluidPhase::NonWetting => f64::max,
         FluidPhase::Wetting => f64::min,
@@ -129,7 +129,7 @@ fn side(track: &Track, outlet: &[usize], (is_in_time, invading): (bool, FluidPha
     }
 }
 
-/// What follows from both together; the sides are left to be filled in.
+/// Results from both together; the sides are filled in later.
 fn compared(network: &Track, direct: &Track, maps: &Maps<'_>) -> Comparison {
     let nearest = |track: &Track, saturation: f64| {
         let off = |record: &Record| (record.saturation - saturation).abs();

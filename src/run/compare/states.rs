@@ -1,8 +1,8 @@
-//! The compared states of the direct simulation in a file, so that an interrupted comparison can go on.
+//! The compared states of the direct simulation in a file, so that an interrupted comparison can be resumed.
 //!
-//! A line per state, as JSON: its time, the saturation, the pressure, and in which cells the invading phase is, as lengths of runs of cells without
-//! and with it in turn. The direct simulation itself is an ordinary run with a saved state; the states up to that one belong to it, and what a
-//! kill left behind them is cut off.
+//! A line per state, as JSON: its time, the saturation, the pressure, and the cells of the invading phase, run-length encoded (alternating lengths without and
+//! with it). The direct simulation itself is an ordinary run with a saved state; the states up to that one belong to it, and later ones left by a kill are
+//! dropped.
 
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,7 @@ pub(crate) struct States {
 }
 
 impl States {
-    /// None yet, in the folder of a new comparison.
+    /// An empty list, in the folder of a new comparison.
     pub(crate) fn new(folder: &Path) -> Self {
         Self { journal: Journal::new(folder.join(STATES)), records: Vec::new() }
     }
@@ -59,7 +59,7 @@ impl States {
         Ok(Self { journal: Journal::resume(path, mark)?, records })
     }
 
-    /// Adds the state of a time in s; one of the same time is there already.
+    /// Adds the state at a time in s; a state of the same time exists already.
     pub(crate) fn add(&mut self, time: f64, record: Record) -> Result<(), FileError> {
         if self.records.last().is_some_and(|&(last, _)| time <= last) {
             return Ok(());
@@ -96,7 +96,7 @@ impl Line {
 
     fn record(&self, grid: &Grid, path: &Path) -> Result<Record, FileError> {
         let cells = grid.cells.len();
-        // The sum may not be what it should be, and no more than the cells are made.
+        // The sum may be wrong, and no more than the number of cells may be allocated.
         let found = self.runs.iter().fold(0_usize, |sum, &run| sum.saturating_add(run));
         if found != cells {
             return Err(content(path, &format!("expected {cells} cells in each state, found {found}")));
@@ -132,20 +132,20 @@ mod tests {
         let mut states = States::new(folder.path());
         for (k, state) in all.iter().enumerate() {
             states.add(k as f64, state.clone()).unwrap();
-            // A second record of one time is none.
+            // A second record of one time is ignored.
             states.add(k as f64, record(0.5, [false; 4])).unwrap();
         }
-        let told = |states: States| states.records().into_iter().map(|it| (it.saturation, it.invaded)).collect();
+        let content = |states: States| states.records().into_iter().map(|it| (it.saturation, it.invaded)).collect();
         let expected: Vec<_> = all.iter().map(|it| (it.saturation, it.invaded.clone())).collect();
-        let read: Vec<(f64, Vec<bool>)> = told(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
+        let read: Vec<(f64, Vec<bool>)> = content(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
         assert_eq!(read, expected);
-        // A killed run left a later state, and one that is cut short.
+        // A killed run left a later state, and a truncated one.
         let path = folder.path().join(STATES);
         std::fs::write(&path, std::fs::read_to_string(&path).unwrap() + "{\"time_s\": 3").unwrap();
         let mut states = States::up_to(1.0, folder.path(), &grid(4)).unwrap();
         states.add(2.0, all[2].clone()).unwrap();
         drop(states);
-        let read: Vec<(f64, Vec<bool>)> = told(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
+        let read: Vec<(f64, Vec<bool>)> = content(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
         assert_eq!(read, expected);
         let error = States::up_to(9.0, folder.path(), &grid(5)).unwrap_err().to_string();
         assert!(error.contains("expected 5 cells in each state, found 4"), "{error}");

@@ -6,31 +6,31 @@ use crate::math::{Bounds, Vec2};
 /// Cells along the longer side of the domain on which phases are compared.
 const CELLS: f64 = 240.0;
 
-/// A state of one of both: where the curve stands, and which cells hold the invading phase.
+/// A state of one of the two: a point of the curve, and the cells of the invading phase.
 #[derive(Debug, Clone)]
 pub(crate) struct Record {
-    /// Time in s; NaN where there is none.
+    /// Time in s; NaN if there is none.
     pub(crate) time: f64,
     /// Saturation of the wetting phase.
     pub(crate) saturation: f64,
-    /// Capillary pressure p_n - p_w in Pa, of displacements in time the pressure at the inlet less that at the outlet; NaN where there is none.
+    /// Capillary pressure p_n - p_w in Pa, of displacements in time the inlet pressure minus the outlet pressure; NaN if there is none.
     pub(crate) pressure: f64,
-    /// For each cell of the pore whether it holds the invading phase.
+    /// For each cell of the pore, whether it has the invading phase.
     pub(crate) invaded: Vec<bool>,
 }
 
-/// One of both through its displacement.
+/// The displacement of one of the two.
 #[derive(Debug, Clone)]
 pub(crate) struct Track {
     pub(crate) records: Vec<Record>,
-    /// For each element the record at which the invading phase came to hold more than half of it.
+    /// For each element, the record at which the invading phase first filled more than half of it.
     pub(crate) filled: Vec<Option<usize>>,
     pub(crate) wall_time_s: f64,
     pub(crate) processor_time_s: Option<f64>,
     pub(crate) unknowns: usize,
     pub(crate) steps: u64,
     pub(crate) permeability: Option<f64>,
-    /// Of a displacement in time: when the invading phase reached the outlet, in s, and the saturation of the wetting phase then.
+    /// Of a displacement in time: time of breakthrough in s, and the wetting saturation then.
     pub(crate) breakthrough: Option<[f64; 2]>,
     pub(crate) warnings: Vec<String>,
 }
@@ -39,7 +39,7 @@ pub(crate) struct Track {
 pub(crate) struct Grid {
     pub(crate) bounds: Bounds,
     pub(crate) counts: [usize; 2],
-    /// Indices of the cells whose middles lie in the pore, row by row, and the element that each lies in.
+    /// Indices of the cells with centers in the pore, row by row, and the element of each.
     pub(crate) cells: Vec<(usize, usize)>,
 }
 
@@ -54,8 +54,8 @@ impl Grid {
     }
 
     pub(crate) fn middle(&self, cell: usize) -> Vec2 {
-        let place = Vec2::new((cell % self.counts[0]) as f64 + 0.5, (cell / self.counts[0]) as f64 + 0.5);
-        self.bounds.min + self.cell().component_mul(&place)
+        let coordinates = Vec2::new((cell % self.counts[0]) as f64 + 0.5, (cell / self.counts[0]) as f64 + 0.5);
+        self.bounds.min + self.cell().component_mul(&coordinates)
     }
 
     /// Width and height of a cell in m.

@@ -75,7 +75,7 @@ fn a_killed_run_resumes_from_its_last_saved_state_without_doubling_a_time() {
     run(&case(), unbroken.path(), Mode::New).unwrap();
     let killed = tempfile::tempdir().unwrap();
     run(&case(), killed.path(), Mode::New).unwrap();
-    // What a kill leaves: files that run ahead of the saved state, here by all that followed time zero.
+    // After a kill, files may be ahead of the saved state, here by all that followed time zero.
     let early = tempfile::tempdir().unwrap();
     let interrupt = AtomicBool::new(true);
     execute(&job(&case(), early.path(), Mode::New), &mut MockSolver::new(), &interrupt, &mut Unwatched).unwrap();
@@ -95,7 +95,7 @@ fn a_run_killed_between_its_last_state_and_its_report_is_told_anew() {
     assert_eq!(json(folder.path())["status"], "interrupted");
     assert!(run(&case(), folder.path(), Mode::Resume).unwrap().was_at_end);
     assert_eq!(json(folder.path())["status"], "done");
-    // The report of the run that did the work stays.
+    // The report of the run that did the work is kept.
     let done = std::fs::read(folder.path().join("report.json")).unwrap();
     run(&case(), folder.path(), Mode::Resume).unwrap();
     assert!(std::fs::read(folder.path().join("report.json")).unwrap() == done);
@@ -193,7 +193,7 @@ fn a_folder_with_files_in_it_is_refused_with_three_ways_out() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("thesis.tex"), "").unwrap();
     let message = run(&case(), folder.path(), Mode::New).unwrap_err().to_string();
-    assert!(["--out", "--resume", "delete"].iter().all(|way| message.contains(way)), "{message}");
+    assert!(["--out", "--resume", "delete"].iter().all(|remedy| message.contains(remedy)), "{message}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
@@ -209,7 +209,7 @@ fn a_finished_run_goes_on_to_a_later_end() {
     // The first end is a record of both.
     assert!(files(folder.path()) == files(unbroken.path()));
     assert_eq!(json(folder.path())["clock"]["value"], longer.end);
-    // What is shorter again, or another fluid, is another case.
+    // An earlier end, or another fluid, makes it another case.
     assert!(run(&case(), folder.path(), Mode::Resume).is_err());
 }
 
@@ -225,13 +225,13 @@ fn resuming_nothing_or_another_case_is_refused() {
     assert!(message.contains("another case"), "{message}");
 }
 
-/// Puts a file where the next grid files should go, as a full disk would come: in the middle of a run.
+/// Puts a file where the next grid files should go, to fail in the middle of a run, like a full disk.
 struct Spoiler<'a>(&'a Path);
 
 impl Watcher for Spoiler<'_> {
     fn stepped(&mut self, progress: &crate::run::simulation::Progress) {
         if progress.step == 12 {
-            // The files of an earlier record may be on their way still, and make the folder anew.
+            // The files of an earlier record may still be being written, and recreate the folder.
             while std::fs::write(self.0.join("grid"), "").is_err() {
                 let _ = std::fs::remove_dir_all(self.0.join("grid"));
             }
@@ -261,7 +261,7 @@ fn a_folder_that_may_not_be_written_to_is_refused() {
     std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o555)).unwrap();
     let refused = run(&case(), &folder.path().join("out"), Mode::New);
     std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();
-    // The administrator may write anywhere; then there is nothing to refuse.
+    // The administrator may write anywhere; then nothing is refused.
     if let Err(error) = refused {
         assert!(error.to_string().contains("permission denied; choose a folder that you may write to"), "{error}");
     }

@@ -1,4 +1,4 @@
-//! Bands of capillary pressure over saturation, the distribution of the saturation at breakthrough, and maps of the probability of invasion.
+//! Bands of capillary pressure over saturation, the distribution of the saturation at breakthrough, and invasion probability maps.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::run::ensemble::{Map, SATURATIONS};
 use crate::study::definition::{Sampling, Study};
 use crate::study::table::Table;
 
-/// What the page shows of a group.
+/// The figures of a group on the page.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Figures {
-    /// The values along the other axes; empty where there are none.
+    /// The values along the other axes; empty if there are none.
     pub(crate) name: String,
     /// Diagrams as SVG.
     pub(crate) diagrams: Vec<String>,
@@ -25,7 +25,7 @@ pub(crate) struct Figures {
     pub(crate) map: Option<String>,
 }
 
-/// The measure of which the distribution is drawn.
+/// The measure whose distribution is drawn.
 const AT_BREAKTHROUGH: &str = "saturation-at-breakthrough";
 
 /// Capillary pressures of the samples of a group at a saturation.
@@ -35,18 +35,20 @@ struct Level {
 }
 
 impl Level {
-    /// The quantiles; those that are infinite have no number.
+    /// The quantiles; infinite ones are NaN.
     fn quantiles(&self) -> [f64; 5] {
-        SHARES.map(|share| Some(quantile(&self.pressures, share)).filter(|it| it.is_finite()).unwrap_or(f64::NAN))
+        SHARES.map(|probability| {
+            Some(quantile(&self.pressures, probability)).filter(|it| it.is_finite()).unwrap_or(f64::NAN)
+        })
     }
 
-    /// Share of the samples that have a pressure.
+    /// Fraction of the samples that have a pressure.
     fn reached(&self) -> f64 {
         let finite = self.pressures.iter().filter(|pressure| pressure.is_finite()).count();
         finite as f64 / self.pressures.len() as f64
     }
 
-    /// The mean, where all samples have a pressure.
+    /// The mean, if all samples have a pressure.
     fn mean(&self) -> f64 {
         if self.reached() == 1.0 { mean(&self.pressures) } else { f64::NAN }
     }
@@ -74,10 +76,10 @@ fn levels(kept: &[&Kept], half_cycle: usize) -> Vec<Level> {
     (0..SATURATIONS).map(level).filter(|level| !level.pressures.is_empty()).collect()
 }
 
-/// Writes the files of each group and tells what the page shows of them. Of several groups the names of the files end in their number.
+/// Writes the files of each group and returns the figures for the page. With several groups, file names end in the number of the group.
 ///
 /// # Errors
-/// [`FileError`] with the path and a way out.
+/// [`FileError`] with the path and a remedy.
 pub(crate) fn write(
     study: &Study,
     ensemble: &Ensemble,
@@ -104,9 +106,9 @@ pub(crate) fn write(
             }
         }
         if map.len() > 0 {
-            let share =
+            let invaded_fraction =
                 |part: usize| kept.iter().filter(|kept| kept.is_invaded(part)).count() as f64 / kept.len() as f64;
-            let probability: Vec<f64> = (0..map.len()).map(share).collect();
+            let probability: Vec<f64> = (0..map.len()).map(invaded_fraction).collect();
             let values = if group.name.is_empty() { String::new() } else { format!(", {}", group.name) };
             let note = format!("{}, {} samples{values}", map.moment(), kept.len());
             map.write(folder, &suffix, &probability, (&study.title, note))?;
@@ -117,10 +119,10 @@ pub(crate) fn write(
     Ok(all)
 }
 
-/// Draws the distributions of the saturation at breakthrough, a line for each group, as `breakthrough.svg`; none where no run has it.
+/// Draws the distributions of the saturation at breakthrough, a line for each group, as `breakthrough.svg`; `None` if no run has it.
 ///
 /// # Errors
-/// [`FileError`] with the path and a way out.
+/// [`FileError`] with the path and a remedy.
 pub(crate) fn distribution(sampling: &Sampling, groups: &[Group], folder: &Path) -> Result<Option<String>, FileError> {
     let trace = |group: &Group| {
         let values = group.values(sampling, AT_BREAKTHROUGH, sampling.count);
@@ -166,19 +168,19 @@ fn table(processes: &[&'static str], halves: &[Vec<Level>]) -> Table {
     Table { heads, rows }
 }
 
-/// The bands of each half cycle: between the outer quantiles, between the inner ones upon it, and the median.
+/// The bands of each half cycle: between the outer quantiles, on top of it between the inner ones, and the median.
 fn diagram(processes: &[&'static str], halves: &[Vec<Level>]) -> Diagram {
     let mut traces = Vec::new();
     for (half, (process, levels)) in processes.iter().zip(halves).enumerate() {
         let name = if processes.len() > 2 { format!("{process} {}", half / 2 + 1) } else { (*process).to_owned() };
         let quantiles: Vec<(f64, [f64; 5])> =
             levels.iter().map(|level| (level.saturation, level.quantiles())).collect();
-        for ([low, high], share) in [([0, 4], "90 %"), ([1, 3], "50 %")] {
+        for ([low, high], percentage) in [([0, 4], "90 %"), ([1, 3], "50 %")] {
             let both = quantiles.iter().filter(|(_, q)| q[low].is_finite() && q[high].is_finite());
             let forth = both.clone().map(|(saturation, q)| [*saturation, q[low]]);
             let back = both.rev().map(|(saturation, q)| [*saturation, q[high]]);
             let points: Vec<[f64; 2]> = forth.chain(back).collect();
-            traces.push(Trace { name: format!("{name}, {share} of the samples"), stroke: Stroke::Band, points });
+            traces.push(Trace { name: format!("{name}, {percentage} of the samples"), stroke: Stroke::Band, points });
         }
         let points = quantiles.iter().map(|(saturation, q)| [*saturation, q[2]]).collect();
         traces.push(Trace { name: format!("{name}, median"), stroke: Stroke::Full, points });

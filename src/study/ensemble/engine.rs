@@ -1,4 +1,4 @@
-//! Runs the samples of an ensemble, many at once within this process. No result depends on the number of threads.
+//! Runs the samples of an ensemble in parallel within this process. No result depends on the number of threads.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -18,16 +18,16 @@ use crate::study::definition::Study;
 use crate::study::folder::StudyFolder;
 use crate::study::results::{RunReport, RunResult, Standing, Total, Unknowns};
 
-/// Time between two saves of what is done.
+/// Time between two saves.
 const BETWEEN_SAVES: Duration = Duration::from_secs(5);
 
-/// Samples for each thread between two looks at the clock.
+/// Samples per thread between two checks of the time.
 const PER_THREAD: usize = 4;
 
-/// An ensemble that cannot be run.
+/// Why an ensemble cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EnsembleError {
-    /// The case that the map is of.
+    /// The case of the map.
     #[error(transparent)]
     Case(#[from] InputError),
     /// Its network.
@@ -38,29 +38,29 @@ pub(crate) enum EnsembleError {
         /// What is wrong.
         why: String,
     },
-    /// A file.
+    /// A file error.
     #[error(transparent)]
     File(#[from] FileError),
 }
 
-/// What is needed to run samples, each part made when it is first asked for.
+/// Runs samples; each part is created on first use.
 pub(crate) struct Engine<'a> {
     study: &'a Study,
     ensemble: &'a Ensemble,
     grounds: Vec<OnceLock<Result<Ground, String>>>,
-    /// What is done of each sample.
+    /// The finished samples.
     pub(crate) done: Vec<Option<Done>>,
 }
 
 impl<'a> Engine<'a> {
-    /// The engine of an ensemble with what is done of it.
+    /// The engine of an ensemble with the samples finished so far.
     pub(crate) fn new(study: &'a Study, ensemble: &'a Ensemble, folder: &StudyFolder) -> Self {
         let digests: Vec<u64> = ensemble.samples.iter().map(|sample| sample.digest).collect();
         let grounds = ensemble.grounds.iter().map(|_| OnceLock::new()).collect();
         Self { study, ensemble, grounds, done: store::load(folder.root(), &digests) }
     }
 
-    /// Number of samples that are done; those that failed are not.
+    /// Number of finished samples, without failed ones.
     pub(crate) fn count(&self) -> usize {
         self.done.iter().flatten().filter(|done| done.ended.is_ok()).count()
     }
@@ -70,7 +70,7 @@ impl<'a> Engine<'a> {
         made.as_ref().map_err(Clone::clone)
     }
 
-    /// Does something with the case of a sample and its network.
+    /// Applies a function to the case of a sample and its network.
     fn with<T>(&self, index: usize, act: impl FnOnce(&Case, &Ground) -> Result<T, String>) -> Result<T, String> {
         let (case, ground) = self.ensemble.case(self.study, index).map_err(|error| error.render())?;
         match ground {
@@ -82,7 +82,7 @@ impl<'a> Engine<'a> {
     /// The map of each group.
     ///
     /// # Errors
-    /// [`EnsembleError`] where the network of its first sample cannot be set up.
+    /// [`EnsembleError`] if the network of its first sample cannot be set up.
     pub(crate) fn maps(&self) -> Result<Vec<Map>, EnsembleError> {
         let of_group = |first: usize| {
             let map = self.with(first, |case, ground| ground.map(case));
@@ -91,17 +91,17 @@ impl<'a> Engine<'a> {
         self.ensemble.groups.iter().map(|group| of_group(group.first)).collect()
     }
 
-    /// Runs all samples that are not done. What is done is saved every few seconds, and at an interrupt; `told` is called with the number of samples
-    /// that have ended.
+    /// Runs all unfinished samples. Finished ones are saved every few seconds, and at an interrupt; `progress` is called with the number of samples that have
+    /// ended.
     ///
     /// # Errors
-    /// [`EnsembleError`]; a sample that fails is none.
+    /// [`EnsembleError`]; a failing sample is not an error.
     pub(crate) fn run(
         &mut self,
         maps: &[Map],
         folder: &StudyFolder,
         interrupt: &AtomicBool,
-        told: &mut dyn FnMut(usize),
+        progress: &mut dyn FnMut(usize),
     ) -> Result<(), EnsembleError> {
         let open = |done: &Option<Done>| done.as_ref().is_none_or(|done| done.ended.is_err());
         let todo: Vec<usize> = (0..self.done.len()).filter(|&index| open(&self.done[index])).collect();
@@ -117,7 +117,7 @@ impl<'a> Engine<'a> {
             if last_save.elapsed() > BETWEEN_SAVES {
                 store::save(folder.root(), &self.done)?;
                 last_save = Instant::now();
-                told(self.count());
+                progress(self.count());
             }
         }
         Ok(store::save(folder.root(), &self.done)?)

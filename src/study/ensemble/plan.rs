@@ -1,4 +1,4 @@
-//! The samples of networks with their cases checked, those of the same shapes with one geometry.
+//! The samples of networks with their checked cases; samples with equal shapes share a geometry.
 
 use std::sync::Arc;
 
@@ -16,19 +16,19 @@ use crate::study::values::shown;
 pub(crate) struct PlannedSample {
     /// Its run.
     pub(crate) run: Run,
-    /// Tells whether a result is of this case and of this map.
+    /// Identifies the case and the map of a result.
     pub(crate) digest: u64,
     /// Index of the values of all other axes.
     pub(crate) group: usize,
-    /// The case without its shapes, and the index of these; absent where shapes are uncertain too, and each case is read when it is run.
+    /// The case without its shapes, and the index of these; `None` if shapes are uncertain, too, and each case is read when it is run.
     pub(crate) known: Option<(Case, usize)>,
 }
 
 /// All samples that have the same values along the other axes.
 pub(crate) struct Group {
-    /// These values, as people read them; empty where there are no other axes.
+    /// These values as text; empty if there are no other axes.
     pub(crate) name: String,
-    /// Index of the first sample, whose pore space is that of the map.
+    /// Index of the first sample, whose pore space defines the map.
     pub(crate) first: usize,
 }
 
@@ -38,18 +38,18 @@ pub(crate) struct Ensemble {
     pub(crate) samples: Vec<PlannedSample>,
     /// Their groups.
     pub(crate) groups: Vec<Group>,
-    /// A case for each geometry, where samples share it.
+    /// A case for each geometry shared by samples.
     pub(crate) grounds: Vec<Case>,
-    /// What the cases were read with.
+    /// The geometry last read.
     pub(crate) kept: KeptGeometry,
     /// Which of the measures that take long the study names.
     pub(crate) costly: Costly,
 }
 
-/// The geometry of the cases, with what else makes a network.
+/// The geometry of the cases, and everything else that determines a network.
 type Key = (u64, String);
 
-/// The samples of a study that runs within this process: one of networks with uncertain values. None where runs are processes.
+/// The samples of a study that runs within this process: one of networks with uncertain values. `None` if runs are processes.
 ///
 /// # Errors
 /// All mistakes of the cases of all samples.
@@ -85,15 +85,15 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
             ensemble.groups.len() - 1
         });
         let shapes = case.geometry.digest();
-        let whole = (!shapes_vary).then(|| case.clone());
+        let complete = (!shapes_vary).then(|| case.clone());
         case.geometry.shapes = Vec::new();
         let own = digest(&case, shapes).to_le_bytes();
         let own = fnv1a(&[&own[..], &[costly.permeabilities.into(), costly.entry_pressures.into()]].concat());
-        let known = whole.map(|whole| {
-            let key = (shapes, shared_by(&whole));
+        let known = complete.map(|complete| {
+            let key = (shapes, shared_by(&complete));
             let ground = keys.iter().position(|other| *other == key).unwrap_or_else(|| {
                 keys.push(key);
-                ensemble.grounds.push(whole);
+                ensemble.grounds.push(complete);
                 keys.len() - 1
             });
             (case, ground)
@@ -101,7 +101,7 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
         let first =
             ensemble.samples.get(ensemble.groups[group].first).map_or(own, |first: &PlannedSample| first.digest);
         let digest = fnv1a(&[own.to_le_bytes(), first.to_le_bytes()].concat());
-        // That of a first sample is what others refer to.
+        // The digest of a first sample is the reference for others.
         let digest = if ensemble.groups[group].first == index { own } else { digest };
         ensemble.samples.push(PlannedSample { run, digest, group, known });
     }
@@ -112,7 +112,7 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
     Ok(Some(ensemble))
 }
 
-/// The values of a run along all axes but that of the samples, as people read them.
+/// The values of a run along all axes except that of the samples, as text.
 pub(crate) fn name_of_group(study: &Study, run: &Run) -> String {
     let is_other = |name: &str| study.sampling.as_ref().is_none_or(|sampling| !sampling.has(name));
     let others = run.parameters.iter().filter(|parameter| is_other(&parameter.name));
@@ -120,10 +120,10 @@ pub(crate) fn name_of_group(study: &Study, run: &Run) -> String {
 }
 
 impl Ensemble {
-    /// The case of a sample, with the index of its geometry where it shares that.
+    /// The case of a sample, with the index of its geometry if it is shared.
     ///
     /// # Errors
-    /// The mistakes of a case that has changed since it was checked.
+    /// The mistakes of a case that has changed since the check.
     pub(crate) fn case(&self, study: &Study, index: usize) -> Result<(Arc<Case>, Option<usize>), InputError> {
         let sample = &self.samples[index];
         match &sample.known {

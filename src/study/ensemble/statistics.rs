@@ -1,4 +1,4 @@
-//! What the samples of a study say of each measure: moments and quantiles, Sobol indices, and how the estimates settle with the number of samples.
+//! Statistics of the samples of a study for each measure: moments, quantiles, Sobol indices, and their convergence with the number of samples.
 
 use super::plan::name_of_group;
 use crate::analysis::samples::{deviation, mean, quantile, sobol_indices};
@@ -7,18 +7,18 @@ use crate::study::results::{RunResult, measures};
 use crate::study::table::{Table, shown_measures};
 use crate::study::verdict::digits;
 
-/// Shares of the quantiles that tables show.
+/// Probabilities of the quantiles in tables.
 pub(crate) const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
-/// The shares as heads of columns.
+/// The corresponding column heads.
 pub(crate) const SHARE_HEADS: [&str; 5] = ["quantile-05", "quantile-25", "quantile-50", "quantile-75", "quantile-95"];
 
-/// Parts of the samples at which estimates are told.
+/// Divisors of the number of samples at which estimates are listed.
 const PARTS: [usize; 4] = [8, 4, 2, 1];
 
 /// Samples with the same values along the other axes.
 pub(crate) struct Group<'r> {
-    /// These values; empty where there are no other axes.
+    /// These values; empty if there are no other axes.
     pub(crate) name: String,
     /// Its runs, those of a sample together.
     pub(crate) results: Vec<&'r RunResult>,
@@ -35,20 +35,20 @@ struct Summary {
     quantiles: [f64; 5],
 }
 
-/// The statistics as tables: all digits for programs, four for people.
+/// The statistics as tables: with all digits for programs, with four for readers.
 #[derive(Debug)]
 pub(crate) struct Statistics {
     /// `quantiles.csv`.
     pub(crate) quantiles: Table,
-    /// `indices.csv`; none where they were not asked for.
+    /// `indices.csv`; `None` if not requested.
     pub(crate) indices: Option<Table>,
     /// `convergence.csv`.
     pub(crate) convergence: Table,
-    /// The same for people.
+    /// The same for readers.
     pub(crate) short_convergence: Table,
-    /// Quantiles for people.
+    /// Quantiles for readers.
     pub(crate) short: Table,
-    /// Indices for people.
+    /// Indices for readers.
     pub(crate) short_indices: Option<Table>,
 }
 
@@ -72,7 +72,7 @@ impl<'r> Group<'r> {
         self.results.chunks(sampling.rows()).take(samples).flat_map(move |sample| sample.iter().take(draws).copied())
     }
 
-    /// The ascending values of a measure in these draws, where it has one.
+    /// The ascending values of a measure in these draws, if it has one.
     pub(crate) fn values(&self, sampling: &Sampling, measure: &str, samples: usize) -> Vec<f64> {
         let mut values: Vec<f64> = self
             .draws(sampling, samples)
@@ -85,7 +85,7 @@ impl<'r> Group<'r> {
         values
     }
 
-    /// The indices of each input for a measure, from the first samples that are complete; none where nothing varies.
+    /// The indices of each input for a measure, from the first complete samples; `None` if nothing varies.
     fn indices(&self, sampling: &Sampling, measure: &str, samples: usize) -> Option<Vec<[f64; 2]>> {
         let rows = sampling.rows();
         let complete = self.results.chunks(rows).take(samples).filter_map(|sample| {
@@ -99,7 +99,7 @@ impl<'r> Group<'r> {
     }
 }
 
-/// The statistics of the complete runs; none where nothing is sampled.
+/// The statistics of the complete runs; `None` if nothing is sampled.
 pub(crate) fn statistics(study: &Study, results: &[RunResult]) -> Option<Statistics> {
     let sampling = study.sampling.as_ref()?;
     let groups = groups(study, results);
@@ -118,7 +118,7 @@ pub(crate) fn statistics(study: &Study, results: &[RunResult]) -> Option<Statist
             count: values.len(),
             mean: mean(&values),
             deviation: deviation(&values),
-            quantiles: SHARES.map(|share| quantile(&values, share)),
+            quantiles: SHARES.map(|probability| quantile(&values, probability)),
         });
     }
     let indices = sampling.indices.then(|| indices(sampling, &groups, &names, full));
@@ -146,7 +146,7 @@ fn indices_for_people(sampling: &Sampling, groups: &[Group], names: &[String]) -
     indices(sampling, groups, names, |number| format!("{number:.3}"))
 }
 
-/// The heads of a table with a first column for the group where there are several.
+/// The heads of a table with a first column for the group if there are several.
 fn heads(groups: bool, heads: &[&str]) -> Vec<String> {
     groups.then_some("values").into_iter().chain(heads.iter().copied()).map(str::to_owned).collect()
 }
@@ -225,7 +225,7 @@ mod tests {
         let value = |run: &crate::study::run::Run, name: &str| run.value(name).and_then(toml::Value::as_float).unwrap();
         let results = complete(&study, |run| value(run, "a") * value(run, "b"));
         let found = statistics(&study, &results).unwrap();
-        // Of uniform factors: means 1.5 and 2, variances 1/12 and 1/3.
+        // For uniform factors: means 1.5 and 2, variances 1/12 and 1/3.
         let ([m, n], [v, w]) = ([1.5, 2.0], [1.0 / 12.0, 1.0 / 3.0]);
         let all = (v + m * m) * (w + n * n) - m * m * n * n;
         let expected = [[v * n * n / all, v * (w + n * n) / all], [w * m * m / all, w * (v + m * m) / all]];
@@ -252,8 +252,8 @@ mod tests {
         let study = study(text);
         let results = complete(&study, |run| if run.index == 1 { f64::NAN } else { run.index as f64 });
         let found = statistics(&study, &results).unwrap();
-        let told: Vec<[&str; 3]> = found.quantiles.rows.iter().map(|row| [0, 1, 3].map(|k| row[k].as_str())).collect();
-        assert_eq!(told, [["c = 1", "m", "7"], ["c = 2", "m", "8"]]);
+        let cells: Vec<[&str; 3]> = found.quantiles.rows.iter().map(|row| [0, 1, 3].map(|k| row[k].as_str())).collect();
+        assert_eq!(cells, [["c = 1", "m", "7"], ["c = 2", "m", "8"]]);
         assert!(found.indices.is_none());
     }
 }

@@ -1,7 +1,7 @@
-//! `samples.bin`: what is done of an ensemble, so that an interrupted one goes on.
+//! `samples.bin`: the finished samples of an ensemble, so that an interrupted one can be resumed.
 //!
-//! Format version, then for each sample its digest and what became of it (`postcard`); a checksum of all of it comes last. A file that cannot be read is
-//! as good as none: the samples are run anew.
+//! Format version, then for each sample its digest and its outcome (`postcard`); a checksum of all of it comes last. An unreadable file is ignored: the samples
+//! are run anew.
 
 use std::path::{Path, PathBuf};
 
@@ -18,23 +18,23 @@ const VERSION: u32 = 1;
 /// Bytes of the checksum.
 const CHECKSUM: usize = 8;
 
-/// What became of a sample.
+/// The outcome of a sample.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Done {
-    /// Tells of which case.
+    /// Identifies its case.
     pub(crate) digest: u64,
-    /// What is kept of it, or why it failed.
+    /// Its results, or why it failed.
     pub(crate) ended: Result<Kept, String>,
 }
 
-/// What is kept of a sample.
+/// The stored results of a sample.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Kept {
     /// Name, unit and value of each measure.
     pub(crate) measures: Vec<(String, String, f64)>,
     /// For each half cycle the capillary pressure at all saturations.
     pub(crate) curves: Vec<Vec<f64>>,
-    /// Eight parts of the map in a byte.
+    /// Eight parts of the map per byte.
     invaded: Vec<u8>,
     /// Number of events or steps.
     pub(crate) steps: u64,
@@ -45,7 +45,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// What is kept of an outcome that took so long in s.
+    /// The stored results of an outcome that took `seconds`.
     pub(crate) fn of(outcome: Outcome, seconds: f64) -> Self {
         let byte = |parts: &[bool]| parts.iter().enumerate().fold(0, |byte, (k, &is)| byte | (u8::from(is) << k));
         let invaded = outcome.invaded.chunks(8).map(byte).collect();
@@ -64,7 +64,7 @@ fn path(folder: &Path) -> PathBuf {
     folder.join("samples.bin")
 }
 
-/// What is done of samples with these digests; the result is as long as the list.
+/// The finished samples with these digests; the result is as long as the list.
 pub(crate) fn load(folder: &Path, digests: &[u64]) -> Vec<Option<Done>> {
     let mut kept = std::fs::read(path(folder)).ok().and_then(|bytes| decode(&bytes)).unwrap_or_default();
     kept.resize(digests.len(), None);
@@ -80,10 +80,10 @@ fn decode(bytes: &[u8]) -> Option<Vec<Option<Done>>> {
     if version == VERSION { postcard::from_bytes(rest).ok() } else { None }
 }
 
-/// Writes what is done.
+/// Writes the finished samples.
 ///
 /// # Errors
-/// [`FileError`]; then the file before is still there.
+/// [`FileError`]; then the previous file still exists.
 pub(crate) fn save(folder: &Path, done: &[Option<Done>]) -> Result<(), FileError> {
     let path = path(folder);
     let failed = |error: postcard::Error| FileError::Format { path: path.clone(), what: error.to_string() };

@@ -4,42 +4,42 @@ use nalgebra::{DMatrix, DVector};
 use sobol_burley::{NUM_DIMENSIONS, sample};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Most inputs: with indices each takes two dimensions of the sequence.
+/// Most inputs: for Sobol indices each needs two dimensions of the sequence.
 pub(super) const MOST_INPUTS: usize = NUM_DIMENSIONS as usize / 2;
 
-/// Half the distance of neighboring numbers of the sequence, which has 23 bits: with it no share is 0 or 1.
+/// Half the step of the sequence, which has 23 bits: with it, no coordinate is 0 or 1.
 const HALF_A_STEP: f64 = 0.5 / (1 << 23) as f64;
 
-/// What a row is for.
+/// The role of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Matrix {
     /// The first sample.
     A,
     /// A second one, independent of it.
     B,
-    /// The first sample with the input of this index as in the second one.
+    /// The first sample with the input of this index from the second one.
     Mixed(usize),
 }
 
-/// A row of shares, one for each input, each between 0 and 1.
+/// A row of probabilities, one for each input, each between 0 and 1.
 pub(super) type Row = (Matrix, Vec<f64>);
 
-/// The share in a dimension of a point of the sequence.
-fn share(point: usize, dimension: usize, seed: u32) -> f64 {
+/// The coordinate of a point of the sequence in a dimension.
+fn coordinate(point: usize, dimension: usize, seed: u32) -> f64 {
     f64::from(sample(point as u32, dimension as u32, seed)) + HALF_A_STEP
 }
 
-/// `count` independent samples of so many inputs.
+/// `count` independent samples of `inputs` inputs.
 pub(super) fn plain(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
-    (0..count).map(|point| (Matrix::A, (0..inputs).map(|k| share(point, k, seed)).collect())).collect()
+    (0..count).map(|point| (Matrix::A, (0..inputs).map(|k| coordinate(point, k, seed)).collect())).collect()
 }
 
-/// The rows from which Sobol indices follow (Saltelli et al. 2010): for each sample one of A, one of B, and one of A with the column of B for each input.
-/// A sample follows the other, so that the first rows are those of fewer samples.
+/// The rows for Sobol indices (Saltelli et al. 2010): for each sample one of A, one of B, and one of A with the column of B for each input. Samples follow one
+/// another, so that the first rows are those of fewer samples.
 pub(super) fn saltelli(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     let rows = |point: usize| {
         let [a, b] =
-            [0, inputs].map(|first| (first..first + inputs).map(|k| share(point, k, seed)).collect::<Vec<_>>());
+            [0, inputs].map(|first| (first..first + inputs).map(|k| coordinate(point, k, seed)).collect::<Vec<_>>());
         let mixed = |k: usize| {
             let mut row = a.clone();
             row[k] = b[k];
@@ -51,14 +51,15 @@ pub(super) fn saltelli(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     (0..count).flat_map(rows).collect()
 }
 
-/// The shares with correlations: a Gaussian copula, whose lower triangular factor is `factor`.
-pub(super) fn correlated(shares: &[f64], factor: &DMatrix<f64>) -> Vec<f64> {
+/// Correlates the probabilities by a Gaussian copula with the lower triangular `factor`.
+pub(super) fn correlated(probabilities: &[f64], factor: &DMatrix<f64>) -> Vec<f64> {
     let normal = Normal::standard();
-    let independent = DVector::from_iterator(shares.len(), shares.iter().map(|share| normal.inverse_cdf(*share)));
+    let independent =
+        DVector::from_iterator(probabilities.len(), probabilities.iter().map(|it| normal.inverse_cdf(*it)));
     (factor * independent).iter().map(|value| normal.cdf(*value)).collect()
 }
 
-/// The lower triangular factor of a correlation matrix; none where it is not positive definite.
+/// The lower triangular factor of a correlation matrix; `None` if it is not positive definite.
 pub(super) fn factor(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(matrix.cholesky()?.l())
 }
@@ -96,7 +97,7 @@ mod tests {
         let normal = Normal::standard();
         let rows: Vec<Vec<f64>> = plain(4096, 2, 3)
             .iter()
-            .map(|(_, row)| correlated(row, &factor).iter().map(|share| normal.inverse_cdf(*share)).collect())
+            .map(|(_, row)| correlated(row, &factor).iter().map(|it| normal.inverse_cdf(*it)).collect())
             .collect();
         let mean = |of: &dyn Fn(&Vec<f64>) -> f64| rows.iter().map(of).sum::<f64>() / rows.len() as f64;
         for k in 0..2 {

@@ -5,21 +5,21 @@ use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Triangular, Uniform
 use crate::input::Checker;
 use crate::study::raw::{RawDistribution, RawLognormal, RawNormal, RawTriangular, RawUniform};
 
-/// A distribution with a finite quantile at every share between 0 and 1.
+/// A distribution with a finite quantile at every probability between 0 and 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Distribution {
-    /// A normal distribution between the shares of it that lie below both ends.
+    /// A normal distribution, truncated at these two cumulative probabilities.
     Normal(Normal, [f64; 2]),
     Lognormal(LogNormal),
     Uniform(Uniform),
     Triangular(Triangular),
 }
 
-/// Share of a normal distribution that must be left between the ends that truncate it.
+/// Smallest probability of a normal distribution between its truncation bounds.
 const LEAST_LEFT: f64 = 1e-6;
 
 impl Distribution {
-    /// The distribution that is written at the key path `at`; none where a mistake was found.
+    /// The distribution at the key path `at`; `None` if a mistake was found.
     pub(super) fn of(checker: &mut Checker, raw: &RawDistribution, at: &str) -> Option<Self> {
         let given = [
             ("normal", raw.normal.is_some()),
@@ -61,18 +61,18 @@ impl Distribution {
         }
     }
 
-    /// The value below which a share of the distribution lies, between 0 and 1.
-    pub(super) fn quantile(&self, share: f64) -> f64 {
+    /// The quantile at `probability`, between 0 and 1.
+    pub(super) fn quantile(&self, probability: f64) -> f64 {
         match self {
-            Self::Normal(normal, [low, high]) => normal.inverse_cdf(low + (high - low) * share),
-            Self::Lognormal(lognormal) => lognormal.inverse_cdf(share),
-            Self::Uniform(uniform) => uniform.inverse_cdf(share),
-            Self::Triangular(triangular) => triangular.inverse_cdf(share),
+            Self::Normal(normal, [low, high]) => normal.inverse_cdf(low + (high - low) * probability),
+            Self::Lognormal(lognormal) => lognormal.inverse_cdf(probability),
+            Self::Uniform(uniform) => uniform.inverse_cdf(probability),
+            Self::Triangular(triangular) => triangular.inverse_cdf(probability),
         }
     }
 }
 
-/// Two ends of which the first one is the smaller one; `key` is the name of the second one.
+/// Two bounds, the first one the smaller; `key` is the name of the second one.
 fn ends(checker: &mut Checker, [from, to]: [Option<f64>; 2], at: &str, key: &str) -> Option<(f64, f64)> {
     let (from, to) = (from?, to?);
     if !(from.is_finite() && to.is_finite() && from < to) {
@@ -108,7 +108,7 @@ fn normal(checker: &mut Checker, raw: &RawNormal, at: &str) -> Option<Distributi
 mod tests {
     use super::*;
 
-    /// Mean and standard deviation by the midpoint rule over shares.
+    /// Mean and standard deviation by the midpoint rule over probabilities.
     fn moments(distribution: &Distribution) -> [f64; 2] {
         const COUNT: u32 = 1 << 16;
         let values: Vec<f64> =

@@ -1,4 +1,4 @@
-//! The axes with a distribution and the table `[sampling]`: from both to one axis with a row per run.
+//! The axes with a distribution and the table `[sampling]`: combined into one axis with a row per run.
 
 use nalgebra::DMatrix;
 use toml::Value;
@@ -10,19 +10,19 @@ use crate::study::axis::last_part;
 use crate::study::definition::{Axis, Column, Input, MATRIX, SAMPLE, Sampling, Target};
 use crate::study::raw::{RawAxis, RawCorrelation, RawSampling};
 
-/// Fewest and most samples; the sequence has 65 536.
+/// Smallest and largest number of samples; the sequence has 65 536.
 const COUNTS: std::ops::RangeInclusive<usize> = 2..=10_000;
 
-/// The digits of a sampled value.
+/// Significant digits of a sampled value.
 const DIGITS: usize = 9;
 
-/// The axis of the samples and what is known of it.
+/// The axis of the samples.
 pub(crate) struct SampledAxis {
     /// A row for each run.
     pub(crate) axis: Axis,
-    /// Number of the axis in the file that stands first among those that it joins.
+    /// Index in the file of the first axis that it replaces.
     pub(crate) place: usize,
-    /// How they were drawn.
+    /// The sampling.
     pub(crate) sampling: Sampling,
 }
 
@@ -34,7 +34,7 @@ struct Uncertain {
     distribution: Distribution,
 }
 
-/// Joins the axes with a distribution. The outer option is missing where a mistake was found, the inner one where no axis has a distribution.
+/// Merges the axes with a distribution. The outer option is missing if a mistake was found, the inner one if no axis has a distribution.
 pub(crate) fn sampled(
     checker: &mut Checker,
     axes: &[RawAxis],
@@ -117,7 +117,7 @@ fn uncertain(checker: &mut Checker, raw: &RawAxis, number: usize) -> Option<Unce
     Some(Uncertain { number, name, keys, distribution: distribution? })
 }
 
-/// The factor of the correlation matrix; the inner option is missing where nothing is correlated.
+/// The factor of the correlation matrix; the inner option is missing if nothing is correlated.
 fn correlation(checker: &mut Checker, raw: &[RawCorrelation], inputs: &[Uncertain]) -> Option<Option<DMatrix<f64>>> {
     if raw.is_empty() {
         return Some(None);
@@ -163,7 +163,7 @@ fn correlation(checker: &mut Checker, raw: &[RawCorrelation], inputs: &[Uncertai
     factor.map(Some)
 }
 
-/// The columns of the axis: the numbers of the rows, what they are for, and the values.
+/// The columns of the axis: the indices of the rows, their roles, and the values.
 fn columns(inputs: &[Uncertain], rows: &[Row], indices: bool) -> Vec<Column> {
     let of_sampling = |name: &str, values: Vec<Value>| Column {
         name: name.to_owned(),
@@ -190,7 +190,7 @@ fn columns(inputs: &[Uncertain], rows: &[Row], indices: bool) -> Vec<Column> {
     columns
 }
 
-/// The number to [`DIGITS`] digits, as it stands in tables and in the keys of the case.
+/// The number to [`DIGITS`] digits, as in tables and in the keys of the case.
 fn rounded(number: f64) -> f64 {
     format!("{number:.precision$e}", precision = DIGITS - 1).parse().unwrap_or(number)
 }
