@@ -5,6 +5,7 @@ from pathlib import Path
 import colors
 import numpy as np
 import pyvista as pv
+from matplotlib.colors import LinearSegmentedColormap
 
 import results
 
@@ -14,6 +15,8 @@ LONG_SIDE = 1280
 SHORT_SIDE = 640
 # Height of the picture over that of the data.
 ROOM = 1.4
+# Where fields have colors of their own: the color function is 0 in the non-wetting and 1 in the wetting phase.
+COLORMAPS = {"color": LinearSegmentedColormap.from_list("phases", [colors.NON_WETTING, colors.WETTING])}
 # The color bar on the right.
 BAR = {
     "fmt": "%.4g",
@@ -95,7 +98,7 @@ def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tup
     pore = grid.clip_scalar(scalars="wall-distance", value=0.0, invert=False)
     if pore.n_points:
         bar, clim = {**BAR, "title": f"{label}\n "}, [factor * limit for limit in limits]
-        plotter.add_mesh(pore, scalars="shown", clim=clim, cmap="viridis", scalar_bar_args=bar, nan_opacity=0.0)
+        plotter.add_mesh(pore, scalars="shown", clim=clim, cmap=COLORMAPS.get(field, "viridis"), scalar_bar_args=bar, nan_opacity=0.0)
     # Lines are lifted towards the viewer, or the field in the same plane covers them.
     lift = (0.0, 0.0, 1e-2 * max(bounds[1] - bounds[0], bounds[3] - bounds[2]))
     lines = results.read(results.frame_at(directory / "interface.pvd", frame.time).file)
