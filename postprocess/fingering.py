@@ -14,6 +14,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+# What is above and beside the square map, over height and width of a picture.
+TOP, BESIDE = 0.073, 0.0558
 MEASURES = ("capillary-number", "saturation-at-breakthrough", "finger-width-m", "fingers-per-line", "solves-per-event")
 
 
@@ -46,10 +48,10 @@ def draw(found: list[dict], directory: Path, picture: Path, seed: str) -> None:
         for run in row["rows"]:
             if run["seed"] == seed:
                 image = plt.imread(directory / "runs" / run["run"] / "picture.png")
-                # The map without title and legend: the widest square.
+                # The map without title, arrows and legend.
                 height, width = image.shape[:2]
-                top = int(0.07 * height)
-                axis.imshow(image[top : top + width])
+                top, left, side = int(TOP * height), int(BESIDE * width), int((1 - 2 * BESIDE) * width)
+                axis.imshow(image[top : top + side + 2, left : left + side])
         ratio = float(row["rows"][0]["viscosity-ratio"])
         axis.set_title(f"viscosity ratio {ratio:g}, Ca {row['capillary-number']:.0e}", fontsize=9)
     for axis in axes.flat:

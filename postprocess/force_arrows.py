@@ -10,6 +10,7 @@ the same one.
 import argparse
 from pathlib import Path
 
+import colors
 import matplotlib
 import numpy as np
 
@@ -20,17 +21,19 @@ import matplotlib.pyplot as plt
 
 # Array, title, color of the arrows.
 FORCES = [
-    ("surface-force", "surface force", "tab:blue"),
-    ("line-force", "contact line force", "tab:red"),
+    ("surface-force", "surface force", colors.MENISCUS),
+    ("line-force", "contact line force", colors.MARK),
 ]
 # Numbers of the phases in the output, with the colors of their particles.
-PHASES = {0: "lightsteelblue", 1: "whitesmoke", 2: "darkgray"}
+PHASES = {0: colors.WETTING, 1: colors.NON_WETTING, 2: colors.SOLID}
+# Particles are pale, so that arrows stand out.
+PALE = 0.5
 # A particle feels a force that is this share of the largest one.
 FELT = 0.02
 # The longest arrow over the width of the picture.
 LONGEST = 0.12
-# What is shown around the wetting phase, over its width.
-MARGIN = 0.15
+# What is shown above and below the wetting phase, and beside it, over its width: the longest arrow at its edge is not cut.
+MARGIN, BESIDE = 0.15, 0.3
 # The same arrows in every picture.
 SEED = 1
 
@@ -64,7 +67,7 @@ def draw(found: dict, picture: Path, share: float) -> None:
     """Writes the figure, the wetting phase in its middle."""
     points = 1e3 * found["points"]
     wetting = points[found["phase"] == 0]
-    margin = MARGIN * (wetting[:, 0].max() - wetting[:, 0].min())
+    margin = (wetting[:, 0].max() - wetting[:, 0].min()) * np.array([BESIDE, MARGIN])
     (x0, y0), (x1, y1) = wetting.min(axis=0) - margin, wetting.max(axis=0) + margin
     height = 0.7 + 6.0 * (y1 - y0) / (x1 - x0)
     figure, axes = plt.subplots(1, len(FORCES), figsize=(12.0, height), sharey=True, layout="constrained")
@@ -72,7 +75,7 @@ def draw(found: dict, picture: Path, share: float) -> None:
     for axis, (name, title, color) in zip(axes, FORCES, strict=True):
         for phase, shade in PHASES.items():
             of_phase = inside & (found["phase"] == phase)
-            axis.scatter(*points[of_phase].T, s=14, color=shade, edgecolors="gray", linewidths=0.2)
+            axis.scatter(*points[of_phase].T, s=14, color=shade, alpha=PALE, linewidths=0.0)
         force = found["forces"][name]
         # The line force acts on few particles: all of them get their arrow.
         at = felt(force, share if name == "surface-force" else 1.0)

@@ -5,6 +5,7 @@ from pathlib import Path
 import colors
 import numpy as np
 import pyvista as pv
+from matplotlib.colors import LinearSegmentedColormap
 
 import results
 
@@ -14,6 +15,8 @@ LONG_SIDE = 1280
 SHORT_SIDE = 640
 # Height of the picture over that of the data.
 ROOM = 1.4
+# Where fields have colors of their own: the color function is 0 in the non-wetting and 1 in the wetting phase.
+COLORMAPS = {"color": LinearSegmentedColormap.from_list("phases", [colors.NON_WETTING, colors.WETTING])}
 # The color bar on the right.
 BAR = {
     "fmt": "%.4g",
@@ -33,6 +36,20 @@ def scalar(data, field: str) -> np.ndarray:
     return np.linalg.norm(values, axis=1) if values.ndim == 2 else values
 
 
+def up_to_walls(grid, values: np.ndarray) -> np.ndarray:
+    """Values that points of the solids next to the pore have from the pore points of their cells, for cells that a wall cuts."""
+    cells = grid.cells_dict[pv.CellType.QUAD]
+    known = np.asarray(grid.point_data["wall-distance"]) > 0.0
+
+    def sums(weights: np.ndarray) -> np.ndarray:
+        each = np.repeat(weights[cells].sum(axis=1), cells.shape[1])
+        return np.bincount(cells.ravel(), weights=each, minlength=len(values))
+
+    counts = sums(known.astype(float))
+    means = sums(np.where(known, values, 0.0)) / np.maximum(counts, 1.0)
+    return np.where(known | (counts == 0.0), values, means)
+
+
 def value_range(directory: Path, field: str, frames: list[results.Frame]) -> tuple[float, float]:
     """Smallest and largest value of a field in the pore over the frames."""
     ends = []
@@ -50,7 +67,9 @@ def value_range(directory: Path, field: str, frames: list[results.Frame]) -> tup
 def length_unit(bounds) -> tuple[float, str]:
     """What meters are multiplied with, and the unit, so that the longer side has few digits before its point."""
     longer = max(bounds[1] - bounds[0], bounds[3] - bounds[2])
-    return next(((factor, unit) for factor, unit in [(1.0, "m"), (1e3, "mm")] if longer * factor >= 1.0), (1e6, "\u00b5m"))
+    # The axes have no letter for micrometers.
+    units = [(1.0, 1.0, "m"), (0.1, 1e3, "mm")]
+    return next(((factor, unit) for least, factor, unit in units if longer * factor >= least), (1e6, "1e-6 m"))
 
 
 def in_thousands(label: str, limits: tuple[float, float]) -> tuple[float, str]:
@@ -72,14 +91,14 @@ def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tup
     grid = results.read(frame.file)
     bounds = grid.bounds
     factor, label = in_thousands(results.label(field), limits)
-    grid.point_data["shown"] = factor * scalar(grid, field)
-    solids = grid.threshold(0.0, scalars="wall-distance", invert=True, all_scalars=False)
+    grid.point_data["shown"] = factor * up_to_walls(grid, scalar(grid, field))
+    solids = grid.clip_scalar(scalars="wall-distance", value=0.0)
     if solids.n_points:
         plotter.add_mesh(solids, color=colors.SOLID, lighting=False)
-    pore = grid.threshold(0.0, scalars="wall-distance")
+    pore = grid.clip_scalar(scalars="wall-distance", value=0.0, invert=False)
     if pore.n_points:
         bar, clim = {**BAR, "title": f"{label}\n "}, [factor * limit for limit in limits]
-        plotter.add_mesh(pore, scalars="shown", clim=clim, cmap="viridis", scalar_bar_args=bar, nan_opacity=0.0)
+        plotter.add_mesh(pore, scalars="shown", clim=clim, cmap=COLORMAPS.get(field, "viridis"), scalar_bar_args=bar, nan_opacity=0.0)
     # Lines are lifted towards the viewer, or the field in the same plane covers them.
     lift = (0.0, 0.0, 1e-2 * max(bounds[1] - bounds[0], bounds[3] - bounds[2]))
     lines = results.read(results.frame_at(directory / "interface.pvd", frame.time).file)
