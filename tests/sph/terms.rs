@@ -328,7 +328,7 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
     };
     let neighborhood = Neighborhood { pairs: cloud.pairs.clone(), images: cloud.images.clone() };
     let found = LineParticles::find(&neighborhood, &fields, &cloud.kernel, n);
-    let lines = tracker.follow(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
+    let lines = tracker.track(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
     let angles: Vec<f64> = lines.iter().map(|line| line.angle).collect();
     let force = found.line_force(&fields, delta, &angles, 0.03);
     let half = |right: bool| {

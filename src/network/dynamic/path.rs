@@ -181,7 +181,7 @@ impl Dynamic {
         [least, most]: [f64; 2],
         area: impl Fn(usize, f64) -> f64,
     ) -> f64 {
-        let value = |function: usize, dt: f64| {
+        let value_of = |function: usize, dt: f64| {
             let area = |law| area(law, dt);
             let at = self.areas(graph, known, &area);
             self.value_of(&known.filling_pores, &known.event_functions[function], &at)
