@@ -6,7 +6,7 @@ Usage: checksums.py store FILE [CASE ...] [--program meniscus] [--steps 40]
 `store` runs every case of `cases` (or those named) to its end, or to a time of about so many steps, and stores a checksum of
 its series, its files for ParaView, its saved state, its report and its other files each. `compare` runs the same cases to the same
 times, prints which files differ, and ends with exit code 1 where one does. Of `report.json`, what depends on the machine and its
-load is left out. Bits are those of one kind of processor: store and compare on the same one.
+load is left out, and the sentences on methods. Bits are those of one kind of processor: store and compare on the same one.
 """
 
 import argparse
@@ -40,6 +40,8 @@ def content(path: Path) -> bytes:
         return path.read_bytes()
     report = json.loads(path.read_text())
     report.get("solver", {}).pop("wall-time-s", None)
+    for measure in report.get("measures", {}).values():
+        measure.pop("method", None)
     return json.dumps({key: value for key, value in report.items() if key not in OF_THE_MACHINE}).encode()
 
 

@@ -94,17 +94,22 @@ def program(root: Path) -> str:
     return digest.hexdigest()[:HASH_DIGITS]
 
 
+def noted(directory: Path) -> Path:
+    """The file beside a study folder that names the programs that have worked on it; within it `meniscus study run` allows no other file."""
+    return directory.with_name(f"{directory.name}-{PROGRAMS}")
+
+
 def note_program(root: Path, directory: Path) -> None:
-    """Notes in a study folder that the present program is about to work on it."""
-    directory.mkdir(parents=True, exist_ok=True)
-    noted = programs(root, directory) if (directory / PROGRAMS).is_file() else []
-    (directory / PROGRAMS).write_text("\n".join(dict.fromkeys([*noted, program(root)])) + "\n", encoding="utf-8")
+    """Notes that the present program is about to work on a study folder."""
+    directory.parent.mkdir(parents=True, exist_ok=True)
+    before = programs(root, directory) if noted(directory).is_file() and directory.is_dir() else []
+    noted(directory).write_text("\n".join(dict.fromkeys([*before, program(root)])) + "\n", encoding="utf-8")
 
 
 def programs(root: Path, directory: Path) -> list[str]:
     """The programs that have worked on a study folder; the present one where none is noted."""
-    noted = directory / PROGRAMS
-    return noted.read_text(encoding="utf-8").split() if noted.is_file() else [program(root)]
+    file = noted(directory)
+    return file.read_text(encoding="utf-8").split() if file.is_file() else [program(root)]
 
 
 def essence(text: str) -> str:
