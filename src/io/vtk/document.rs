@@ -2,9 +2,9 @@
 //!
 //! Implemented here and not taken from vtkio 0.7.0-rc2:
 //! - [`Document`], [`Piece`] and [`Arrays`]: its own types omit `NumberOfPoints` and `NumberOfCells` if they are 0, which VTK requires, and points and cells
-//! are private: only its model fills them, with unsigned integers, which meshio converts to floating-point numbers.
+//!   are private: only its model fills them, with unsigned integers, which meshio converts to floating-point numbers.
 //! - [`Compression::encode`]: it declares one block too many if an array fills its last block, which no reader accepts, and its zlib takes 25 times as long,
-//! since it is fed number by number.
+//!   since it is fed number by number.
 //! - Empty arrays, which it writes as a header without data: readers of compressed files fail on that.
 //!
 //! It writes no field data: the time of a file is in the `.pvd`.
