@@ -52,8 +52,6 @@ import csv
 import hashlib
 import io
 import json
-import math
-import operator
 import re
 import shutil
 import subprocess
@@ -62,22 +60,20 @@ import tomllib
 import zlib
 from pathlib import Path
 
+from gallery_index import INDEX, index
+from gallery_tables import table
+
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = Path("docs/validation/results")
 LAYOUTS = RESULTS / "tables.toml"
 FIGURES = Path("docs/figures")
 BLOCK = re.compile(r"^(<!-- results: (\S+) -->\n)(.*?)^<!-- end of results -->", re.DOTALL | re.MULTILINE)
-FIELD = re.compile(r"\{([^{}:]+)(?::([^{}]*))?\}")
-INDEX = re.compile(r"^(<!-- generated: cases and studies -->\n).*?^<!-- end of generated -->", re.DOTALL | re.MULTILINE)
 # Parts of a study or case that change no run.
 REMARKS = ("[[expect", "[[trend", "[report", "[[report")
 DIGITS = 7
 HASH_DIGITS = 10
-# File of a study folder with the programs that have worked on it.
+# Ending of the list of the programs that have worked on a study folder.
 PROGRAMS = "programs.txt"
-OPERATIONS = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
-# Keys of a column that are no parameters.
-RESERVED = ("head", "cell", "of")
 
 
 def checksum(data: bytes) -> str:
@@ -95,7 +91,7 @@ def program(root: Path) -> str:
 
 
 def noted(directory: Path) -> Path:
-    """The file beside a study folder that names the programs that have worked on it; within it `meniscus study run` allows no other file."""
+    """The list of programs beside a study folder, in which a study to begin allows no other file."""
     return directory.with_name(f"{directory.name}-{PROGRAMS}")
 
 
@@ -159,6 +155,11 @@ def layout_of(tables: dict[str, dict], name: str) -> dict:
     if name not in tables:
         raise SystemExit(f"{LAYOUTS.as_posix()} has no [{name}]")
     return {"studies": [name]} | tables[name]
+
+
+def studies_of(text: str, tables: dict[str, dict]) -> list[str]:
+    """The studies whose tables a text shows."""
+    return [study for block in BLOCK.finditer(text) for study in layout_of(tables, block[2])["studies"]]
 
 
 def blocks(root: Path) -> list[tuple[Path, re.Match]]:
@@ -236,81 +237,6 @@ def measure(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-def same(a: str, b: str) -> bool:
-    """Whether two values are the same text or, to three digits, the same number."""
-    try:
-        return a == b or math.isclose(float(a), float(b), rel_tol=1e-3)
-    except ValueError:
-        return False
-
-
-def matches(run: dict[str, str], values: dict) -> bool:
-    """Whether a run has these values of those of its parameters that they name."""
-    return all(same(run.get(key, str(value)), str(value)) for key, value in values.items())
-
-
-def value(expression: str, run: dict[str, str]) -> float | None:
-    """The value of an expression, from left to right; none where the run lacks a measure."""
-    first, *rest = [run.get(word, word) for word in expression.split()]
-    if "" in [first, *rest]:
-        return None
-    result = float(first)
-    for sign, word in zip(rest[::2], rest[1::2], strict=True):
-        number = float(word)
-        result = OPERATIONS[sign](result, number)
-    return result
-
-
-def cell(template: str, run: dict[str, str], names: dict) -> str:
-    """A cell of a table."""
-
-    def field(match: re.Match) -> str:
-        expression, form = match[1].strip(), match[2]
-        if form is None:
-            text = run.get(expression, "")
-            return names.get(expression, {}).get(text, text)
-        found = value(expression, run)
-        if found is None:
-            return "none"
-        text = format(found, form.removesuffix("±").strip())
-        bars = [run.get(f"{expression.split()[0]}-{kind}") for kind in ("uncertainty", "discretization-uncertainty")]
-        bar = math.hypot(*(float(bar) for bar in bars if bar))
-        if form.endswith("±") and bar:
-            name = expression.split()[0]
-            moved = value(expression, run | {name: str(float(run[name]) + bar)})
-            text += f" ± {format(abs(moved - found), form.removesuffix('±').strip().lstrip('+'))}"
-        return re.sub(r"^-|(?<=[ (])-", "\u2212", text).replace("%", " %")
-
-    return FIELD.sub(field, template)
-
-
-def table(layout: dict, results: dict[str, list[dict[str, str]]]) -> list[str]:
-    """The lines of a table; none without columns."""
-    keys = layout.get("rows", [])
-    keys = [keys] if isinstance(keys, str) else keys
-    heads, lines = [], []
-    for column in layout.get("columns", []):
-        named = FIELD.search(column.get("cell", ""))
-        heads.append(column.get("head", f"`{named[1].split()[0]}`" if named else ""))
-    runs = [run for found in results.values() for run in found if matches(run, layout.get("where", {}))]
-    rows: dict[tuple, list] = {}
-    for index, run in enumerate(runs):
-        rows.setdefault(tuple(run.get(key) for key in keys) if keys else (index,), []).append(run)
-    for row in rows.values():
-        cells = []
-        for column in layout.get("columns", []):
-            among = [run for run in row if "of" not in column or run in results[column["of"]]]
-            found = [run for run in among if matches(run, {k: v for k, v in column.items() if k not in RESERVED})]
-            template = column.get("cell", layout.get("cell", ""))
-            texts = list(dict.fromkeys(cell(template, run, layout.get("names", {})) for run in found))
-            if len(texts) > 1:
-                raise SystemExit(f"{', '.join(results)}: {len(found)} runs for {column}: {texts}")
-            cells += texts or [""]
-        lines.append(cells)
-    lines = [heads, ["---"] * len(heads), *lines, *layout.get("more", [])] if heads else []
-    return ["|" + "".join(f" {text} |" if text != "---" else "---|" for text in line) for line in lines]
-
-
 def sources(paths: list[Path]) -> str:
     """What stands below a table: programs, commands and processor times of its results."""
     commands: dict[str, list[str]] = {}
@@ -334,63 +260,6 @@ def written(root: Path, block: re.Match, tables: dict[str, dict]) -> str:
     return f"{block[1]}{body}<!-- end of results -->"
 
 
-def sections(root: Path) -> list[tuple[str, str, str]]:
-    """Title, address seen from the gallery, and text: of sections of the validation pages, then of the other pages."""
-    summary = (root / "docs/SUMMARY.md").read_text(encoding="utf-8")
-    pages = re.findall(r"\]\(([^)]+)\)", summary)
-    found = []
-    for page in sorted(pages, key=lambda page: not page.startswith("validation/")):
-        text = INDEX.sub("", (root / "docs" / page).read_text(encoding="utf-8"))
-        is_validation = page.startswith("validation/")
-        address = page.removeprefix("validation/") if is_validation else f"../{page}"
-        for part in re.split(r"^(?=## )", text, flags=re.MULTILINE) if is_validation else [text]:
-            title = part.split("\n")[0].lstrip("# ")
-            anchor = re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
-            found.append((title, f"{address}#{anchor}" if part.startswith("## ") else address, part))
-    return found
-
-
-def index(root: Path) -> list[str]:
-    """The lines of the table of all cases and studies, with the sections that show them."""
-    tables, parts = layouts(root), sections(root)
-    order = {address: number for number, (_, address, _) in reversed(list(enumerate(parts)))}
-    nowhere = ("", "")
-    shown = {
-        study: (title, address)
-        for title, address, text in reversed(parts)
-        for block in BLOCK.finditer(text)
-        for study in layout_of(tables, block[2])["studies"]
-    }
-
-    def place(path: str) -> tuple[str, str]:
-        if path.startswith("studies/") and Path(path).stem in shown:
-            return shown[Path(path).stem]
-        named = re.compile(rf"(?<!/){re.escape(path)}")
-        return next(((title, address) for title, address, text in parts if named.search(text)), nowhere)
-
-    def key(entry: tuple) -> tuple:
-        return order.get(entry[0][1], len(parts)), entry[1]
-
-    studies: dict[str, list] = {}
-    for path in sorted(file.relative_to(root).as_posix() for file in (root / "studies").rglob("*.toml")):
-        case = tomllib.loads((root / path).read_text(encoding="utf-8")).get("case")
-        case = case and ((root / path).parent / case).resolve().relative_to(root.resolve()).as_posix()
-        studies.setdefault(case or "", []).append((place(path), path))
-    groups = [(*entry, [entry]) for entry in studies.get("", [])]
-    for path in sorted(file.relative_to(root).as_posix() for file in (root / "cases").rglob("*.toml")):
-        own = sorted(studies.get(path, []), key=key)
-        groups.append((own[0][0] if own else place(path), path, own or [(place(path), "")]))
-    lines, last = ["| section | case | study |", "|---|---|---|"], None
-    for _, path, own in sorted(groups, key=key):
-        for number, (at, study) in enumerate(own):
-            link = f"[{at[0]}]({at[1]})" if at != nowhere else "others"
-            link = "" if at == last else link
-            case = f"`{path}`" if number == 0 and path != study else ""
-            lines.append(f"| {link} | {case} | {f'`{study}`' if study else ''} |")
-            last = at
-    return lines
-
-
 def write(root: Path, check: bool = False) -> list[Path]:
     """Writes the tables of all pages, or only looks; returns the pages that change."""
     changed, tables = [], layouts(root)
@@ -398,7 +267,7 @@ def write(root: Path, check: bool = False) -> list[Path]:
         text = page.read_text(encoding="utf-8")
         renewed = BLOCK.sub(lambda block: written(root, block, tables), text)
         if INDEX.search(text):
-            body = "\n".join(index(root))
+            body = "\n".join(index(root, lambda text: studies_of(text, tables)))
             renewed = INDEX.sub(lambda found: f"{found[1]}\n{body}\n\n<!-- end of generated -->", renewed)
         if renewed != text:
             changed.append(page)

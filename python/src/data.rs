@@ -1,4 +1,4 @@
-//! Data for Python: made without the interpreter's lock, handed over as bytes that numpy can read directly.
+//! Data for Python: made without the interpreter's lock, as bytes that numpy can read directly.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict, PyList, PyString};

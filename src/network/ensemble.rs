@@ -167,7 +167,7 @@ fn quasi_static(
     Some(Observed {
         curves,
         invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
-        measures: measures::with_costly(&solver.model, costly),
+        measures: measures::all(&solver.model, costly),
         steps: solver.steps(),
         pores: config.pores.main_region.len(),
     })

@@ -37,15 +37,10 @@ impl Costly {
     }
 }
 
-/// All measures.
-pub(crate) fn all(model: &Model) -> Vec<Measure> {
-    with_costly(model, Costly::ALL)
-}
-
-/// All measures but the costly ones that are left out.
-pub(crate) fn with_costly(model: &Model, costly: Costly) -> Vec<Measure> {
+/// All measures, without the costly ones that are left out.
+pub(crate) fn all(model: &Model, costly: Costly) -> Vec<Measure> {
     let config = &model.config;
-    let mut found = of_network_with(model, costly);
+    let mut found = of_network(model, costly);
     found.extend(replaced(model));
     if let Some(cycles) = &model.cycles {
         found.extend(of_displacement(config, cycles));
@@ -54,12 +49,8 @@ pub(crate) fn with_costly(model: &Model, costly: Costly) -> Vec<Measure> {
 }
 
 /// The measures without a displacement.
-pub(crate) fn of_network_with_flow(model: &Model) -> Vec<Measure> {
-    of_network_with(model, Costly::ALL)
-}
-
-fn of_network_with(model: &Model, costly: Costly) -> Vec<Measure> {
-    let mut found = of_network(&model.config);
+pub(crate) fn of_network(model: &Model, costly: Costly) -> Vec<Measure> {
+    let mut found = of_geometry(&model.config);
     if costly.permeabilities {
         found.extend(permeabilities(model));
     }
@@ -69,7 +60,7 @@ fn of_network_with(model: &Model, costly: Costly) -> Vec<Measure> {
     found
 }
 
-fn of_network(config: &Configuration) -> Vec<Measure> {
+fn of_geometry(config: &Configuration) -> Vec<Measure> {
     let pores = &config.pores;
     let ratio = pores.persistence;
     let widths = || kept(config).map(|throat| throat.width);
@@ -100,6 +91,7 @@ fn of_network(config: &Configuration) -> Vec<Measure> {
 }
 
 fn permeabilities(model: &Model) -> Vec<Measure> {
+    let [x, y, of_wetting, of_other] = PERMEABILITIES;
     let config = &model.config;
     let of_axis = |axis: usize, name| {
         let method = match drive(config, axis) {
@@ -110,16 +102,17 @@ fn permeabilities(model: &Model) -> Vec<Measure> {
         let notes: String = notes_on_permeability(config, axis).iter().map(|note| format!("; {note}")).collect();
         measure(name, along(model, axis), "m2", format!("{method}{notes}"))
     };
-    let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
+    let mut found = vec![of_axis(0, x), of_axis(1, y)];
     if let [[_, wetting, other]] = relative(model, &[1.0])[..] {
         let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
-        found.push(measure("relative-permeability-wetting", wetting, "", method));
-        found.push(measure("relative-permeability-non-wetting", other, "", method));
+        found.push(measure(of_wetting, wetting, "", method));
+        found.push(measure(of_other, other, "", method));
     }
     found
 }
 
 fn entry_pressures(model: &Model) -> Vec<Measure> {
+    let [smallest, median, largest] = ENTRY_PRESSURES;
     let config = &model.config;
     let Some(all) = model.entry_pressures() else { return Vec::new() };
     let mut pressures: Vec<f64> = config.pores.throats.iter().map(|&throat| all[throat]).collect();
@@ -128,9 +121,9 @@ fn entry_pressures(model: &Model) -> Vec<Measure> {
     let last = pressures.len().checked_sub(1);
     let method = "entry pressures of all throats in drainage, at the receding angle";
     vec![
-        measure("smallest-entry-pressure-Pa", at(Some(0)), "Pa", format!("the smallest of the {method}")),
-        measure("median-entry-pressure-Pa", at(last.map(|last| last / 2)), "Pa", format!("the median of the {method}")),
-        measure("largest-entry-pressure-Pa", at(last), "Pa", format!("the largest of the {method}")),
+        measure(smallest, at(Some(0)), "Pa", format!("the smallest of the {method}")),
+        measure(median, at(last.map(|last| last / 2)), "Pa", format!("the median of the {method}")),
+        measure(largest, at(last), "Pa", format!("the largest of the {method}")),
     ]
 }
 

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cycles::Cycles;
 use super::displacement::EventKind;
+use super::measures::Costly;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::{flow, layers, measures, openpnm, pictures, reservoir, state, summary, tables, warnings};
@@ -131,7 +132,7 @@ impl Solver for NetworkSolver {
     }
 
     fn measures(&self, _series: &Series) -> Vec<Measure> {
-        measures::all(&self.model)
+        measures::all(&self.model, Costly::ALL)
     }
 
     fn warnings(&self, _: &Series) -> Vec<String> {

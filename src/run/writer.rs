@@ -1,6 +1,6 @@
 //! Writes files in a separate thread, so that the solver continues meanwhile.
 //!
-//! Records are written in the order in which they were handed over: a saved state is never ahead of earlier files. The first error ends the thread; it is
+//! Records are written in the order in which they arrive: a saved state is never ahead of earlier files. The first error ends the thread; it is
 //! returned to the caller that hands over the next record or waits for the end.
 
 use std::panic::resume_unwind;

@@ -3,14 +3,14 @@
 use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
-use crate::network::measures::of_network_with_flow;
+use crate::network::measures::{Costly, of_network};
 use crate::network::tables::{BEGINNING, counts, numbers, numbers_of_throats, places, words};
 use crate::solver::{Measure, Series, measure};
 use crate::table::Table;
 
 /// All measures.
 pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
-    let mut found = of_network_with_flow(&model.quasi_static);
+    let mut found = of_network(&model.quasi_static, Costly::ALL);
     let dynamic = &model.dynamic;
     let terms = dynamic.terms();
     let breakthrough = dynamic.breakthrough();
