@@ -267,10 +267,11 @@ fn every_measure_is_described() {
         let source = std::fs::read_to_string(file).unwrap();
         let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
         there.extend(calls.filter_map(|rest| rest.split('"').next().map(str::to_owned)));
-        // The network names the measures of its axes where it says what flows along them.
-        let axes = source.split("of_axis(").skip(1).filter_map(|rest| rest.split_once(", \"")?.1.split_once("\")"));
-        there.extend(axes.map(|(name, _)| name.to_owned()));
     }
+    // A network names the measures that take long in lists.
+    let source = std::fs::read_to_string(root().join("src/network/measures.rs")).unwrap();
+    let lists = source.split(": [&str; ").skip(1).filter_map(|rest| rest.split_once("];"));
+    there.extend(lists.flat_map(|(list, _)| list.split('"').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>()));
     there.extend(of_chip("MEASURES"));
     there.insert(meniscus::run::report::STEADY_AT.to_owned());
     assert!(there.contains("contact-angle-deg") && there.contains("permeability-x-m2"), "{there:?}");
