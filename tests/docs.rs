@@ -9,8 +9,14 @@ use meniscus::case::{load, load_shapes};
 use meniscus::geometry::import::Options;
 use meniscus::input::Overrides;
 
+#[path = "docs/equations.rs"]
+mod equations;
+#[path = "docs/generated.rs"]
+mod generated;
 #[path = "docs/keys.rs"]
 mod keys;
+#[path = "docs/names.rs"]
+mod names;
 #[path = "docs/page.rs"]
 mod page;
 #[path = "docs/reference.rs"]

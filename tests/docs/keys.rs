@@ -3,16 +3,13 @@
 //!
 //! A page holds blocks `<!-- keys: PATH -->` to `<!-- end of keys -->` with the keys of the table at PATH, those of tables within it
 //! included, unless they have a block of their own. The first block, of the whole file, has no path: every key is on the page.
-//! `MENISCUS_BLESS=1 cargo test --release --test docs` writes the tables.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
+use crate::generated::{self, compare, filled};
 use crate::page::{files, root, text};
-
-const BEGIN: &str = "<!-- keys:";
-const END: &str = "<!-- end of keys -->";
 
 /// A schema with its reference followed, and the name of the type that it refers to.
 pub fn followed<'s>(schema: &'s Value, whole: &'s Value) -> (Option<&'s str>, &'s Value) {
@@ -155,12 +152,7 @@ fn table(rows: &[[String; 4]]) -> String {
     if rows.iter().all(|[_, value, ..]| value == "empty table") {
         return rows.iter().map(|[key, ..]| key.as_str()).collect::<Vec<_>>().join(", ") + ".\n";
     }
-    let line = |cells: &[String; 4]| {
-        let cells = cells.iter().map(|cell| if cell.is_empty() { " ".to_owned() } else { format!(" {cell} ") });
-        format!("|{}|\n", cells.collect::<Vec<_>>().join("|"))
-    };
-    let head = ["key", "value", "default", "meaning"].map(str::to_owned);
-    format!("{}|---|---|---|---|\n{}", line(&head), rows.iter().map(line).collect::<String>())
+    generated::table(["key", "value", "default", "meaning"], rows)
 }
 
 /// A page with its tables as the schema has them.
@@ -168,19 +160,13 @@ fn written(page: &str, schema: &Value, folders: &[&str]) -> String {
     let files = folders.iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
     let source = files.map(|file| std::fs::read_to_string(file).unwrap());
     let path = |rest: &str| rest.split("-->").next().unwrap_or_default().trim().to_owned();
-    let blocks: BTreeSet<String> = page.split(BEGIN).skip(1).map(path).collect();
+    let blocks: BTreeSet<String> = page.split("<!-- keys:").skip(1).map(path).collect();
     assert!(blocks.contains(""), "the page has no block for the whole file");
     let mut keys = Keys { schema, source: source.collect(), blocks, described: BTreeMap::new() };
-    let mut parts = page.split(BEGIN);
-    let mut all = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (_, rest) = part.split_once(END).unwrap_or_else(|| panic!("a block has no end:\n{part}"));
-        let path = path(part);
-        let (name, table) = keys.at(&path);
-        let begin = format!("{BEGIN} {path} -->").replace("  ", " ");
-        all += &format!("{begin}\n\n{}\n{END}{rest}", self::table(&keys.rows((&name, &table), &path)));
-    }
-    all
+    filled(page, "keys", |path| {
+        let (name, table) = keys.at(path);
+        self::table(&keys.rows((&name, &table), path))
+    })
 }
 
 #[test]
@@ -190,12 +176,6 @@ fn the_tables_of_keys_are_those_of_the_schemas() {
         ("docs/reference/study-file.md", meniscus::study::schema(), &["src/study"]),
     ];
     for (path, schema, folders) in pages {
-        let (page, expected) = (text(path), written(&text(path), &schema, folders));
-        if std::env::var_os("MENISCUS_BLESS").is_some() {
-            std::fs::write(root().join(path), &expected).unwrap();
-        } else {
-            let stale = page.lines().zip(expected.lines()).find(|(line, expected)| line != expected);
-            assert!(page == expected, "{path} is stale; write it by MENISCUS_BLESS=1: {stale:?}");
-        }
+        compare(path, &written(&text(path), &schema, folders));
     }
 }
