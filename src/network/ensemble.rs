@@ -315,11 +315,14 @@ impl Reference {
         Table {
             name: "invasion",
             columns: vec![
+                // As in `pores.csv`
                 tables::counts("pore", 0..pores),
                 tables::numbers("x_m", centers().map(|center| center.x)),
                 tables::numbers("y_m", centers().map(|center| center.y)),
                 tables::numbers("inscribed_radius_m", (0..pores).map(|pore| tables::radius(config, pore))),
                 tables::numbers("area_m2", config.pores.area.iter().copied()),
+                // Probability that a random place of the pore holds the invading phase when that reaches the outlet, or else at the end of the first
+                // half cycle
                 tables::numbers("invasion_probability", sums.iter().map(|[weighted, area]| weighted / area)),
             ],
         }

@@ -129,8 +129,11 @@ pub(crate) fn table(model: &Model) -> Option<Table> {
     (!rows.is_empty()).then(|| Table {
         name: "relative_permeability",
         columns: vec![
+            // Wetting saturation; with [`network.region`](../network/theory.md#a-region) that of the region
             numbers("saturation", column(0)),
+            // Permeability of the throats between regions of the wetting phase over that of all
             numbers("relative_permeability_wetting", column(1)),
+            // Permeability of the throats between regions of the non-wetting phase over that of all
             numbers("relative_permeability_non_wetting", column(2)),
         ],
     })

@@ -109,22 +109,35 @@ impl Solver for NetworkSolver {
 
     fn sample(&self) -> Vec<Sample> {
         let sample = |name, value| Sample { name, value };
-        let mut row = vec![sample("displaced_pore_volumes", self.clock), sample("step", self.steps() as f64)];
+        let mut row = vec![
+            // Displaced share of the pore space, summed over half cycles
+            sample("displaced_pore_volumes", self.clock),
+            // Number of events and starts of half cycles
+            sample("step", self.steps() as f64),
+        ];
         if let Some(cycles) = &self.model.cycles {
             let pressure = |applied| self.model.config.pressure(cycles.half_cycle().invading, applied);
             let invaded = summary::invaded_pores(&self.model.config, &cycles.occupation());
             row.extend([
+                // With a displacement, as all that follow: number of the half cycle, from 1
                 sample("half_cycle", (cycles.half_cycle_index() + 1) as f64),
+                // Wetting saturation
                 sample("saturation", cycles.saturation()),
+                // Applied capillary pressure
                 sample("capillary_pressure_Pa", cycles.applied().map_or(f64::NAN, pressure)),
+                // Share of the pore space whose displaced phase has no path to the outlet
                 sample("trapped_saturation", cycles.trapped_saturation()),
+                // Number of pores that the invading phase came to hold in this half cycle
                 sample("invaded_pores", invaded as f64),
+                // Number of events of this kind so far
                 sample("bursts", self.count(EventKind::Burst)),
                 sample("touches", self.count(EventKind::Touch)),
                 sample("overlaps", self.count(EventKind::Overlap)),
             ]);
             if cycles.has_films() {
+                // With `films`: number of snap-offs so far
                 row.push(sample("snap_offs", self.count(EventKind::SnapOff)));
+                // With `films`: the part of the saturation in films
                 row.push(sample("film_saturation", cycles.film_saturation()));
             }
         }

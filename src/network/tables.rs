@@ -107,17 +107,26 @@ fn opens_at(config: &Configuration, side: Option<usize>) -> Vec<bool> {
 fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
     let all = || 0..config.pores.main_region.len();
     let mut columns = vec![
+        // Number of the pore, from 0
         counts("pore", all()),
+        // Center, the maximum of the wall distance
         numbers("x_m", all().map(|pore| center(config, pore).x)),
         numbers("y_m", all().map(|pore| center(config, pore).y)),
+        // Wall distance of the center
         numbers("inscribed_radius_m", all().map(|pore| radius(config, pore))),
+        // Area of its region
         numbers("area_m2", config.pores.area.iter().copied()),
+        // Length of wall of its region
         numbers("wall_length_m", wall_lengths(config)),
+        // Number of throats and openings, a throat from a pore to itself counting twice
         counts("coordination_number", coordination(config)),
+        // Whether it opens at the inlet
         flags("inlet", opens_at(config, config.inlet)),
+        // Whether it opens at the outlet
         flags("outlet", opens_at(config, config.outlet)),
     ];
     if let Some(depth) = config.network.depth {
+        // With [`geometry.depth`](../tutorials/depth.md), after `area_m2`: area times depth
         columns.insert(5, numbers("volume_m3", config.pores.area.iter().map(|area| depth * area)));
     }
     if let Some(occupation) = occupation {
@@ -128,6 +137,7 @@ fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
             for (element, volume) in occupation.elements.iter().zip(&films.volume) {
                 volumes[config.pores.pore_of[element.region]] += volume;
             }
+            // With `films`, as the last column: volume of its films
             columns.push(numbers("film_volume_m3", volumes));
         }
     }
@@ -138,13 +148,18 @@ fn state_columns(config: &Configuration, invading: FluidPhase, states: &[PoreSta
     let of =
         |value: fn(&Invasion) -> f64| states.iter().map(move |state| state.invasion.as_ref().map_or(f64::NAN, value));
     [
+        // With a displacement, as all that follow: phase that holds more than half of the pore
         words("phase", states.iter().map(|state| state.fluid.name())),
+        // Event of the last half cycle by which the invading phase held more than half; 0 at the start, empty if never
         places("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
+        // Whether more than half is trapped defending phase
         flags("trapped", states.iter().map(|state| state.is_trapped)),
         numbers(
+            // Applied capillary pressure at the event `sequence`
             "invasion_capillary_pressure_Pa",
             of(|invasion| invasion.applied).map(|applied| config.pressure(invading, applied)),
         ),
+        // Displaced share of the pore space after the event `sequence`
         numbers("displaced_saturation_at_invasion", of(|invasion| invasion.displaced)),
     ]
 }
@@ -153,32 +168,44 @@ fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
     let config = &model.config;
     let of = |value: fn(&Throat) -> f64| kept(config).map(value);
     let mut columns = vec![
+        // Number of the throat, from 0
         counts("throat", 0..config.pores.throats.len()),
+        // Its pores, maybe the same
         counts("pore_1", kept(config).map(|throat| pores_of(config, throat)[0])),
         counts("pore_2", kept(config).map(|throat| pores_of(config, throat)[1])),
+        // Its middle
         numbers("x_m", of(|throat| throat.middle().x)),
         numbers("y_m", of(|throat| throat.middle().y)),
+        // Distance of the wall contacts
         numbers("width_m", of(|throat| throat.width)),
+        // Length from pore center to pore center through the middle
         numbers("length_m", kept(config).map(|throat| length(config, throat))),
+        // Wall contacts
         numbers("contact_1_x_m", of(|throat| throat.contacts[0].x)),
         numbers("contact_1_y_m", of(|throat| throat.contacts[0].y)),
         numbers("contact_2_x_m", of(|throat| throat.contacts[1].x)),
         numbers("contact_2_y_m", of(|throat| throat.contacts[1].y)),
+        // Number of the shape at each wall contact; the sides left, right, bottom and top follow the last shape
         counts("wall_1", kept(config).map(|throat| throat.shapes[0] as usize)),
         counts("wall_2", kept(config).map(|throat| throat.shapes[1] as usize)),
+        // Curvature of the wall at each contact, positive where the solid is convex; empty at an edge
         numbers("wall_curvature_1_per_m", of(|throat| finite(throat.curvatures[0]))),
         numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
     ];
     let conductances = model.conductances();
     let of_kept = |factor: f64| config.pores.throats.iter().map(move |&throat| factor * conductances[throat]);
+    // [Flow per depth times viscosity over pressure difference](../network/theory.md#conductance-and-permeability)
     columns.push(numbers("conductance_m2", of_kept(1.0)));
     if let Some(depth) = config.network.depth {
+        // With `geometry.depth`: the same for the whole flow
         columns.push(numbers("conductance_m3", of_kept(depth)));
     }
     if let Some(pressures) = model.entry_pressures() {
+        // Entry pressure in drainage, at the receding angle
         columns.push(numbers("entry_pressure_Pa", config.pores.throats.iter().map(|&throat| pressures[throat])));
     }
     if let Some(occupation) = occupation {
+        // Event of the last half cycle by which it was passed
         columns.push(places("sequence", sequences(config, occupation)));
     }
     Table { name: "throats", columns }
@@ -223,17 +250,26 @@ pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
     let mut table = Table {
         name: "events",
         columns: vec![
+            // Number of the half cycle, from 1
             counts("half_cycle", all().map(|row| row.half_cycle + 1)),
+            // `drainage` or `imbibition`
             words("process", all().map(|row| process(row.half_cycle))),
+            // Number of the event in its half cycle, 0 at the beginning
             counts("sequence", all().map(|row| row.sequence)),
+            // `burst`, `touch`, `overlap`; with `films` `snap-off`, `reconnection`; `beginning`: openings of the inlet filled, without a pressure
             words("event", all().map(|row| row.event.map_or(BEGINNING, |entry| entry.kind.name()))),
+            // Passed throat; empty within a pore, or for a throat that the merge dissolved
             places("throat", all().map(throat)),
+            // Capillary pressure of this event
             numbers("meniscus_pressure_Pa", pressures(|entry| entry.curvature)),
+            // Applied capillary pressure: the extreme so far
             numbers("capillary_pressure_Pa", pressures(|entry| entry.applied)),
+            // Wetting saturation after the event
             numbers("saturation", all().map(|row| row.saturation[0])),
         ],
     };
     if cycles.has_films() {
+        // With `films`: the part of the saturation in films
         table.columns.push(numbers("film_saturation", all().map(|row| row.saturation[1])));
     }
     table
@@ -274,10 +310,15 @@ pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Opt
     cycles.has_films().then(|| Table {
         name: "capillary_pressure",
         columns: vec![
+            // Number of the half cycle, from 1
             counts("half_cycle", curve.iter().map(|point| point.half_cycle + 1)),
+            // `drainage` or `imbibition`
             words("process", curve.iter().map(process)),
+            // Applied capillary pressure
             numbers("capillary_pressure_Pa", curve.iter().map(|point| tension * point.curvature)),
+            // Wetting saturation
             numbers("saturation", curve.iter().map(|point| point.saturation)),
+            // The part of the saturation in films
             numbers("film_saturation", curve.iter().map(|point| point.film_saturation)),
         ],
     })

@@ -115,43 +115,43 @@ pub struct Reached {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Report {
-    /// Version of the program.
+    /// Version of the program
     pub version: &'static str,
-    /// How the run ended.
+    /// How the run ended: `done`, `interrupted`, `failed` or `expectation-failed`
     pub status: Status,
-    /// What went wrong, if anything.
+    /// Error message, or `null`
     pub error: Option<String>,
-    /// Time reached in s; absent where the run goes along something else.
+    /// End of the run in s; `null` if its clock is not a time
     pub time_s: Option<f64>,
-    /// The clock of the run, and how far it went.
+    /// Clock of the run: `name`, `symbol`, `unit` and final `value`
     pub clock: Reached,
-    /// Steps since time zero.
+    /// Number of steps since time zero
     pub steps: u64,
-    /// Whether the run was steady, and what still changed; `None` if the case does not require it.
+    /// With `[time.steady]`: `at-s` (`null` if never), `window-s`, and `quantities` with `column`, `mean`, `change`, `tolerance`
     pub steady: Option<Steadiness>,
-    /// The final measures by name.
+    /// Measures by name: `value` or `null`, `unit`, `uncertainty`, `method`; `not-at-rest` with `rate` and `unit` for one that still changes
     pub measures: BTreeMap<String, Reading>,
-    /// Expectations of the case.
+    /// Expectations of the case: `measure`, `value`, `tolerance`, `measured`, `pass` (`null` before the end)
     pub expectations: Vec<Verdict>,
-    /// Dimensionless numbers at the highest recorded speed, by symbol.
+    /// Dimensionless numbers at the largest recorded speed: `symbol`, `value`, `formula`
     pub numbers: Vec<Number>,
-    /// Their characteristic length L.
+    /// Characteristic length of the dimensionless numbers: `value` in m, `name`
     pub length_of_numbers: Length,
-    /// The dimension of pressures, volumes and rates; `None` for a film on a wall.
+    /// Depth of the chip, or that all is per meter of depth; `null` for films
     pub depth: Option<String>,
-    /// The case with all values, in SI units.
+    /// The case with every value, in SI units and radians
     pub case: Case,
-    /// The case file with all defaults filled in, as TOML.
+    /// The complete case file, with all defaults, as TOML
     pub resolved_case: String,
-    /// The machine.
+    /// Machine: `cores`, `threads`, `os`
     pub machine: Machine,
-    /// Wall time in s.
+    /// Wall time of the last process in s: `total`, and `parts` by name
     pub wall_time_s: WallTime,
-    /// Processor time in s of all processes of the run, except for steps that a kill undid; `None` if it is not known.
+    /// Processor time in s of all threads of all processes of the run, except for steps that a kill undid; `null` if it is not known
     pub cpu_s: Option<f64>,
-    /// What a reader must know before trusting the measures.
+    /// Limits that affect the measures
     pub warnings: Vec<String>,
-    /// Unknowns, steps and counters of the solver, of this process.
+    /// Solver in the last process: `unknowns`, `steps`, `wall-time-s` without output, further `counts`
     pub solver: SolverReport,
 }
 

@@ -176,23 +176,41 @@ impl Solver for SphSolver {
         let speed = flow.state.particles.fluid_speed();
         let momentum = self.momentum();
         let row = [
+            // Time
             ("time_s", flow.state.time),
+            // Number of steps
             ("step", flow.state.steps as f64),
+            // Last time step
             ("dt_s", flow.state.last_dt),
+            // Area of the wetting phase over that of both
             ("saturation", observed.areas.saturation()),
+            // Length of the interface
             ("interface_length_m", observed.interface_length()),
+            // Length of wall under the wetting phase
             ("wetted_length_m", observed.wetted_length),
+            // Pressure of the non-wetting phase minus that of the wetting phase
             ("capillary_pressure_Pa", observed.capillary_pressure.value),
+            // Mean contact angle
             ("contact_angle_deg", observed.angle().mean_deg),
+            // Kinetic energy per depth
             ("kinetic_energy_J_per_m", self.kinetic_energy()),
+            // Largest speed
             ("max_speed_m_per_s", speed),
+            // Root mean square of `V_0/V − 1`
             ("density_error", error),
+            // Iterations of the last pressure solve
             ("ppe_iterations", flow.work.last_iterations as f64),
+            // Area of the wetting phase
             ("wetting_area_m2", observed.areas.wetting),
+            // Area of the non-wetting phase
             ("non_wetting_area_m2", observed.areas.non_wetting),
+            // Number of contact lines
             ("contact_lines", observed.contact_lines.len() as f64),
+            // Number of connected parts of the wetting phase
             ("wetting_blobs", observed.wetting_blobs.len() as f64),
+            // Number of parts of either phase with fewer than 20 particles
             ("small_pieces", observed.small_pieces as f64),
+            // Momentum per depth
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];

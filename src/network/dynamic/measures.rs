@@ -138,12 +138,19 @@ pub(crate) fn events(model: &DynamicModel) -> Table {
     Table {
         name: "events",
         columns: vec![
+            // Number of the event, from 1; 0 at the beginning
             counts("sequence", 0..=history().len()),
+            // Time
             numbers("time_s", std::iter::once(0.0).chain(history().map(|event| event.time))),
+            // `burst`, `touch`, `overlap`; `beginning`: openings of the inlet filled, without a pressure
             words("event", std::iter::once(BEGINNING).chain(history().map(|event| event.kind.name()))),
+            // Passed throat; empty within a pore, or for a throat that the merge dissolved
             places("throat", std::iter::once(None).chain(throats)),
+            // Tension times meniscus curvature, positive where the meniscus bulges into the wetting phase
             numbers("meniscus_pressure_Pa", nothing().chain(history().map(|event| pressure(event.curvature)))),
+            // Pressure at the inlet minus that at the outlet
             numbers("pressure_difference_Pa", nothing().chain(history().map(|event| event.pressure))),
+            // Wetting saturation after the event
             numbers("saturation", saturations.map(wetting)),
         ],
     }

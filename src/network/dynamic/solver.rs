@@ -150,23 +150,35 @@ impl Solver for DynamicSolver {
         let fingers = self.model.dynamic.fingers(&self.model.quasi_static.config);
         let depth = self.model.quasi_static.config.network.depth;
         vec![
+            // Time
             sample("time_s", self.time()),
+            // Number of steps
             sample("step", self.steps() as f64),
+            // Area that passed the inlet over that of the pores
             sample("injected_pore_volumes", self.model.injected()),
+            // Wetting saturation
             sample("saturation", wetting),
+            // Pressure at the inlet minus that at the outlet
             sample("pressure_difference_Pa", pressure),
             match depth {
+                // Flow into the inlet, in m³/s with `geometry.depth`
                 Some(depth) => sample("inflow_m3_per_s", depth * inflow),
                 None => sample("inflow_m2_per_s", inflow),
             },
+            // Viscosity of the invading phase times the flow per depth into the inlet, over the length of that side and the tension
             sample("capillary_number", self.model.capillary_number()),
+            // Length of the menisci
             sample("interface_length_m", self.model.dynamic.interface_length()),
+            // Mean width of fingers on lines across the flow
             sample("finger_width_m", fingers.width),
+            // Mean number of fingers on lines across the flow
             sample("fingers", fingers.count),
             sample(
+                // Number of pores that the invading phase came to hold
                 "invaded_pores",
                 summary::invaded_pores(&self.model.quasi_static.config, &self.model.occupation()) as f64,
             ),
+            // Number of events of this kind so far
             sample("bursts", self.count(EventKind::Burst)),
             sample("touches", self.count(EventKind::Touch)),
             sample("overlaps", self.count(EventKind::Overlap)),

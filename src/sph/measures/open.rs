@@ -11,14 +11,13 @@ fn is_open(flow: &Flow) -> bool {
     !flow.config.open.sides.is_empty() || !flow.config.open.through.is_empty()
 }
 
-/// Column of the pressure at the side where it rises in steps minus that at the opposite side, in Pa.
+/// With `pressure-steps`: pressure at that side minus that at the opposite side
 pub(crate) const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
 
-/// Column of the mean pressure at the sides with a given velocity minus that given at the others, in Pa.
+/// With a given velocity or flow rate: mean pressure within two spacings of that side minus the pressure given at the other one
 pub(crate) const DRIVING_PRESSURE: &str = "driving_pressure_Pa";
 
-/// Column of the area in m² of the invading phase that has left through another side; with a pressure that rises in steps, of the phase
-/// at that side through the opposite one.
+/// Area of the invading phase that left through another side; with `pressure-steps`, of the phase at that side through the opposite one
 pub(crate) const PASSED: &str = "passed_m2";
 
 /// The first side whose pressure rises in steps.
@@ -48,14 +47,28 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
     let (came, left) = flow.state.fluxes.totals();
     let area = |count: u64| count as f64 * flow.config.method.volume;
     let mut columns = vec![
+        // Area of the wetting phase that entered, counted in particles
         ("wetting_in_m2", area(came[0])),
+        // Area of the wetting phase that left, counted in particles
         ("wetting_out_m2", area(left[0])),
+        // Area of the non-wetting phase that entered, counted in particles
         ("non_wetting_in_m2", area(came[1])),
+        // Area of the non-wetting phase that left, counted in particles
         ("non_wetting_out_m2", area(left[1])),
     ];
     let names = [
-        ("flow_rate_x_m2_per_s", "driving_gradient_x_Pa_per_m"),
-        ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m"),
+        (
+            // Periodic sides: flow rate along x
+            "flow_rate_x_m2_per_s",
+            // Periodic sides: mean driving pressure gradient along x
+            "driving_gradient_x_Pa_per_m",
+        ),
+        (
+            // Periodic sides: flow rate along y
+            "flow_rate_y_m2_per_s",
+            // Periodic sides: mean driving pressure gradient along y
+            "driving_gradient_y_Pa_per_m",
+        ),
     ];
     if let Some(side) = rising(flow) {
         let opposite = flow.config.open.sides.iter().find(|other| other.number != side.number);
