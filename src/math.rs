@@ -32,7 +32,7 @@ pub(crate) fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 
 /// times this.
 pub(crate) const LINE_MOMENT: f64 = 1.0 / 7.0;
 
-/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is 4π/7 [Huber2013, Eq. 14].
+/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is 4π/7.
 #[inline]
 pub(crate) fn wendland_c2(q: f64) -> f64 {
     let t = (1.0 - 0.5 * q).max(0.0);

@@ -35,7 +35,7 @@ impl<'a> Samples<'a> {
     }
 }
 
-/// The normalized weights of particles at nodes.
+/// The normalized weights of particles at nodes [Huber2013, Eq. 13].
 #[derive(Debug, Clone)]
 pub struct Stencils {
     /// Particle and weight, node after node.

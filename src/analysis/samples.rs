@@ -13,7 +13,7 @@ pub(crate) fn deviation(values: &[f64]) -> f64 {
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// The quantile at `probability`, 0 to 1, of ascending values, by linear interpolation (Hyndman and Fan 1996, definition 7). Values may be infinite; between an
+/// The quantile at `probability`, 0 to 1, of ascending values, by linear interpolation (definition 7) \[HyndmanFan1996\]. Values may be infinite; between an
 /// infinite and another value the lower one counts.
 pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
     let Some(last) = ascending.len().checked_sub(1) else { return f64::NAN };
@@ -31,8 +31,8 @@ pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
 }
 
 /// The first-order and the total index of each input: `a` and `b` are the results for two independent samples, each of `mixed` those for `a` with one input as
-/// in `b`. First order by the estimator (b) of table 2 of Saltelli et al. (2010), with the mean subtracted; total by (f), that of Jansen (1999). `None` if
-/// nothing varies.
+/// in `b` \[SaltelliEtAl2010; Jansen1999\]. First order by the estimator (b) of table 2 of Saltelli et al., with the mean subtracted; total by (f), that of
+/// Jansen. `None` if nothing varies.
 pub(crate) fn sobol_indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Option<Vec<[f64; 2]>> {
     let all: Vec<f64> = a.iter().chain(b).copied().collect();
     let center = mean(&all);

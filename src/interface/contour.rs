@@ -23,7 +23,7 @@ const SAME_VERTEX: f64 = 1e-9;
 /// Marks an edge at which no segment starts.
 const NO_EDGE: usize = usize::MAX;
 
-/// Contours of `values` (one per node of `lattice`, NaN where there is none) at `level`.
+/// Contours of `values` (one per node of `lattice`, NaN where there is none) at `level` \[Lorensen1987; Nielson1991\].
 ///
 /// Open lines come before closed ones, each group in grid order. A line that spans a periodic axis is open, its last vertex the image of the first.
 pub fn contour(lattice: &Lattice, values: &[f64], level: f64) -> Vec<Polyline> {

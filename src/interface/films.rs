@@ -8,7 +8,7 @@
 
 use super::depth::corner_area;
 
-/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface: areas scale with the square of the radius.
+/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface \[Princen1969; Princen1970\]: areas scale with the square of the radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
     /// Cross-section.
@@ -26,7 +26,7 @@ impl Corner {
     }
 }
 
-/// The films along one wall: one at the floor, one at the lid.
+/// The films along one wall: one at the floor, one at the lid \[Princen1969; Princen1970\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallFilms {
     corners: [Option<Corner>; 2],
@@ -64,7 +64,7 @@ impl WallFilms {
 }
 
 /// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m): on a wall, on the
-/// floor or on the lid, whichever comes first as the pressure falls. For equal angles 2 (cos θ - sin θ) over the smaller of width and depth; 0 if there is no
+/// floor or on the lid, whichever comes first as the pressure falls \[LenormandZarconeSarr1983\]. For equal angles 2 (cos θ - sin θ) over the smaller of width and depth; 0 if there is no
 /// film.
 pub fn meeting(width: f64, depth: f64, walls: [&WallFilms; 2]) -> f64 {
     let on_walls = walls.map(|wall| wall.along_wall() / depth);

@@ -20,7 +20,7 @@ pub struct Images {
 }
 
 impl Images {
-    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points`.
+    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points` [Huber2013, Eqs. 32-34].
     ///
     /// Corner images are images of images, so that a particle near two mirrors has three.
     pub fn append(points: &mut Vec<Vec2>, domain: &Domain, support: f64) -> Self {
@@ -79,7 +79,7 @@ impl Images {
         self.field_by(values, Mirror::reflect)
     }
 
-    /// The field of velocities: v' = −v on no-slip sides [Huber2013, Eq. 34].
+    /// The field of velocities: v' = −v on no-slip sides ([`Mirror::velocity`]).
     pub fn velocity_field(&self, values: Vec<Vec2>) -> Field<Vec2> {
         self.field_by(values, Mirror::velocity)
     }

@@ -77,7 +77,7 @@ impl Method {
         self.inviscid_time_step(speed).tighter(self.numerics.time_step_factor * over_rate / viscous_rate, "viscosity")
     }
 
-    /// [`Self::time_step`] without the viscous limit.
+    /// The limit of the step by velocity and capillary waves \[Brackbill1992\]. [`Self::time_step`] adds the viscous limit.
     pub(crate) fn inviscid_time_step(&self, speed: f64) -> TimeStep {
         let f = self.numerics.time_step_factor;
         let capillary = match self.numerics.viscous_step {

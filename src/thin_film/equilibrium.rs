@@ -31,7 +31,7 @@ const XI_RANGE: (f64, f64) = (0.05, 60.0);
 const SEARCH_STEP: f64 = 1.01;
 
 impl Equilibrium {
-    /// The equilibrium with the wave number `xi`.
+    /// The equilibrium with the wave number `xi` [Pang2022, Sect. 5].
     pub(crate) fn of_wave_number(alpha: f64, area: f64, xi: f64) -> Self {
         let s = alpha * xi;
         let radius = (PI - 2.0 * s.atan()) / xi;

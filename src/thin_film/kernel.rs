@@ -27,7 +27,7 @@ struct Term {
     odd: bool,
 }
 
-/// Φ on the infinite line.
+/// The smoothing kernel Φ on the infinite line [Pang2022, Eq. 41].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kernel {
     alpha: f64,

@@ -34,7 +34,7 @@ pub struct Line {
     pub bond: f64,
 }
 
-/// The nodes and the equation.
+/// The nodes and the equation of the implicit finite-difference method [Pang2022, Eqs. 76-83].
 #[derive(Debug, Clone)]
 pub struct Ring {
     line: Line,

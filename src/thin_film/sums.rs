@@ -64,7 +64,7 @@ impl Factors {
     }
 }
 
-/// The recursion with its work space, reused in each step.
+/// The recursion for the sums of the kernel over particles [Pang2022, Sect. 3], with its work space, reused in each step.
 #[derive(Debug, Clone)]
 pub struct FastSums {
     kernel: Kernel,

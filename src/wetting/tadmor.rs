@@ -21,7 +21,7 @@ impl WettingModel for Tadmor {
         self.static_angle()
     }
 
-    /// The equilibrium angle \[Tadmor2004\].
+    /// The equilibrium angle of [`tadmor`].
     fn static_angle(&self) -> f64 {
         tadmor(self.advancing_angle_deg.to_radians(), self.receding_angle_deg.to_radians())
     }
@@ -35,7 +35,7 @@ impl WettingModel for Tadmor {
     }
 }
 
-/// Equilibrium contact angle in rad from an advancing and a receding one (Tadmor 2004).
+/// Equilibrium contact angle in rad from an advancing and a receding one \[Tadmor2004\].
 ///
 /// cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G = (sin³/(2 - 3 cos + cos³))^(1/3).
 ///

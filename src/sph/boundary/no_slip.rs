@@ -49,7 +49,7 @@ impl NoSlip {
         (1.0 + c * (d_b - b) / (d_a + b)).min(self.largest_stretch)
     }
 
-    /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite.
+    /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite \[Huh1971\].
     pub(crate) fn slip_length_at(&self, line_distance: f64) -> f64 {
         let [near, far] = NEAR_LINE.map(|n| n * self.spacing);
         let weight = ((far - line_distance) / (far - near)).clamp(0.0, 1.0);
@@ -64,7 +64,7 @@ impl NoSlip {
         [if b == 0.0 { across } else { self.stretch_to(distance, wall, b).max(0.0) }, across]
     }
 
-    /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
+    /// The stretched difference of the velocity `v_ab` = v_a − v_wall \[Navier1823\]: with a slip length b (m), the part along the wall is stretched by
     /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) from and `normal` of the wall.
     pub(crate) fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
         let [along, beta] = self.stretches(distance, wall, b);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::math::{Vec2, wendland_c2};
 
-/// Wendland's C2 kernel for one smoothing length.
+/// Wendland's C2 kernel for one smoothing length [Huber2013, Eq. 14; Wendland1995].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WendlandC2 {
     /// Smoothing length h in m.
@@ -36,7 +36,7 @@ impl WendlandC2 {
         2.0 * self.h
     }
 
-    /// W(r) in 1/m² [Huber2013, Eq. 14].
+    /// W(r) in 1/m².
     pub fn w(&self, r: f64) -> f64 {
         self.w_and_slope(r).0
     }

@@ -78,6 +78,7 @@ impl Multigrid {
         self.cycle(0, matrix, r, z);
     }
 
+    /// z ≈ M⁻¹ r by one K-cycle from zero, from the level `depth` to the coarsest \[Notay2010\].
     fn cycle<T: Unknown>(&self, depth: usize, matrix: &Matrix, r: &[T], z: &mut [T]) {
         let Some(next) = self.coarse.get(depth) else {
             match &self.direct {
@@ -101,7 +102,7 @@ impl Multigrid {
         backward(matrix, r, &residual, z);
     }
 
-    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Notay 2010, Alg. 3.2).
+    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Alg. 3.2) \[Notay2010\].
     fn inner<T: Unknown>(&self, depth: usize, matrix: &Matrix, b: &[T]) -> Vec<T> {
         let n = b.len();
         let mut c = vec![T::ZERO; n];

@@ -39,7 +39,7 @@ impl View<'_, Fields> {
         self.fields.interface.force.jump().is_some()
     }
 
-    /// The right-hand side of the pressure equation for the unit gradient along `axis`; `matrix` as assembled.
+    /// The right-hand side of the pressure equation for the unit gradient along `axis` \[PatankarLiuSparrow1977\]; `matrix` as assembled.
     pub(super) fn right_side_of_gradient(&self, axis: Vec2, matrix: &Matrix) -> Vec<f64> {
         if !self.gradient_in_pressure() {
             let by = (0..self.state.particles.moving()).map(|a| axis / self.fields.bulk.density[a]).collect();
@@ -138,7 +138,7 @@ fn flow_rate(config: &Configuration, side: &OpenSide, velocity: &[Vec2]) -> f64 
 }
 
 /// The changes in Pa/m of the mean pressure gradients with which fluid of the given `velocity` (m/s) has the given flow rates at the end of a
-/// step of length `dt` (s).
+/// step of length `dt` (s) \[PatankarLiuSparrow1977\].
 pub(super) fn gradient_changes(config: &Configuration, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
     let through = &config.open.through;
     let missing = |i: usize| through[i].flow_rate() - flow_rate(config, &through[i], velocity);

@@ -150,7 +150,7 @@ impl ViscousMatrix<'_> {
         dt * theta(dt * self.largest_rate)
     }
 
-    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at the beginning of the step.
+    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at the beginning of the step \[Liniger1970\].
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
         let weight = self.weight(dt);
         let fluids = self.diagonal.len();
@@ -171,7 +171,7 @@ impl ViscousMatrix<'_> {
     }
 }
 
-/// The weight of the end of the step, from 1/2 for short to 1 for long steps; `z` is the time step times the largest rate.
+/// The weight of the end of the step \[Liniger1970\], from 1/2 for short to 1 for long steps; `z` is the time step times the largest rate.
 fn theta(z: f64) -> f64 {
     if z < SHORT { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
 }

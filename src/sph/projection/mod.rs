@@ -30,7 +30,7 @@ const FIRST_SOLVES: usize = 6;
 const MOST_REPEATS: usize = 10;
 
 impl Flow {
-    /// Takes one step that ends at `until` (s) or before.
+    /// Takes one step that ends at `until` (s) or before, by momentum and continuity [Huber2013, Eqs. 1-3].
     ///
     /// # Errors
     /// See [`SolverError`]; positions, velocities and time are then those before the step.

@@ -45,7 +45,7 @@ struct End {
 }
 
 impl InterfaceLine<'_> {
-    /// The pinned line where the interface meets the wall at the `angle` (rad), `None` if the wall does not bend there.
+    /// The pinned line where the interface meets the wall at the `angle` (rad), `None` if the wall does not bend there \[Oliver1977\].
     pub(crate) fn pinned(&self, angle: f64) -> Option<PinnedLine> {
         let (interface, place) = (self.interface, self.place);
         let normal_at = |s: f64| (interface.wall)(place + s * interface.h * self.outward()).1;

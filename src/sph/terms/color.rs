@@ -21,9 +21,9 @@ pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], count:
     pairs.sums(count, |a, ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w)
 }
 
-/// The gradient of Eq. (18) made exact for linear fields: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
+/// The color gradient made exact for linear fields \[Bonet1999\]: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
 ///
-/// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is nearly singular the gradient is not corrected.
+/// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab; where that is nearly singular the gradient is not corrected.
 /// `r_ab(a, b)` in m. Zero if a particle is not `near` the interface.
 pub(crate) fn consistent_gradient(
     pairs: &Pairs,

@@ -26,12 +26,10 @@ pub(crate) fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure:
     })
 }
 
-/// −Σ_b V_b 2 (p_b − p_a)/(ρ_a + ρ_b) ∇_a W_ab in m/s²: the gradient whose Laplacian is Eq. (30).
+/// −Σ_b V_b 2 (p_b − p_a − `rise`)/(ρ_a + ρ_b) ∇_a W_ab in m/s², with the pressure jump at the interface in `rise` \[Fedkiw1999; Kang2000\].
 ///
-/// Continuous in ∇p/ρ across the interface, so valid at any density ratio; independent of the constant in p, while momentum is conserved only
-/// as far as the particles are ordered.
-///
-/// `rise(a, b)` = p_b − p_a in Pa in a fluid at rest.
+/// The gradient whose Laplacian is Eq. (30). Continuous in ∇p/ρ across the interface, so valid at any density ratio; independent of the constant in p, while
+/// momentum is conserved only as far as the particles are ordered. `rise(a, b)` = p_b − p_a in Pa in a fluid at rest.
 pub fn difference(
     pairs: &Pairs,
     volume: &[f64],

@@ -90,7 +90,7 @@ pub struct ContactLineTracker<'a> {
 }
 
 impl ContactLineTracker<'_> {
-    /// The present lines, from those of the previous step, `dt` (s) ago, and the detected ones, which come first, in the order of detection.
+    /// The present lines, from those of the previous step, `dt` (s) ago, and the detected ones, which come first, in order \[Dussan1979\].
     pub fn track(&self, before: &[TrackedLine], detected_lines: &[impl DetectedLine], dt: f64) -> Vec<TrackedLine> {
         let moved: Vec<TrackedLine> = before.iter().map(|line| self.carried(line, dt)).collect();
         let known = self.matches(&moved, detected_lines);
