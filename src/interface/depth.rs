@@ -64,9 +64,8 @@ impl Depth {
     /// \[MayerStowe1965; Princen1969; Princen1970\].
     ///
     /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of Mayer,
-    /// Stowe and Princen: with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is the contribution of
-    /// the corner films. A meniscus of negative in-plane curvature has no films. The result increases with `plane`, so that a uniform depth preserves the
-    /// order of events.
+    /// Stowe and Princen: with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is the contribution of the corner films. A
+    /// meniscus of negative in-plane curvature has no films. The result increases with `plane`, so that a uniform depth preserves the order of events.
     pub fn curvature(&self, plane: f64) -> f64 {
         let both = plane + self.transverse;
         if plane <= 0.0 || self.corners == 0.0 {

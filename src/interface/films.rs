@@ -8,7 +8,8 @@
 
 use super::depth::corner_area;
 
-/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface \[Princen1969; Princen1970\]: areas scale with the square of the radius.
+/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface \[Princen1969; Princen1970\]: areas scale with the square of
+/// the radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
     /// Cross-section.
@@ -64,8 +65,8 @@ impl WallFilms {
 }
 
 /// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m): on a wall, on the
-/// floor or on the lid, whichever comes first as the pressure falls \[LenormandZarconeSarr1983\]. For equal angles 2 (cos θ - sin θ) over the smaller of width and depth; 0 if there is no
-/// film.
+/// floor or on the lid, whichever comes first as the pressure falls \[LenormandZarconeSarr1983\]. For equal angles 2 (cos θ - sin θ) over the smaller of width
+/// and depth; 0 if there is no film.
 pub fn meeting(width: f64, depth: f64, walls: [&WallFilms; 2]) -> f64 {
     let on_walls = walls.map(|wall| wall.along_wall() / depth);
     let [one, other] = walls.map(WallFilms::along_plates);

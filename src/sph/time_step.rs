@@ -8,8 +8,7 @@ use crate::sph::method::Method;
 /// Courant number on the smoothing length, without surface tension. It bounds the error of particle trajectories.
 const COURANT: f64 = 0.125;
 
-/// Courant number with surface tension, where the measures of the gallery do not differ between the two values (docs/numerics/forces.md,
-/// "Limit by velocity").
+/// Courant number with surface tension, where the measures of the gallery do not differ between the two values (docs/numerics/forces.md, "Limit by velocity").
 const COURANT_WITH_TENSION: f64 = 0.25;
 
 /// Largest Courant number for any factor on the step: with the overshoot below, displacements remain under the limit that ends a run.

@@ -82,7 +82,8 @@ impl Passage {
         Some(self.meniscus(&self.walls.on_leg(rise, k)))
     }
 
-    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall \[CieplakRobbins1988\]. Independent of the contact angle there.
+    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall \[CieplakRobbins1988\]. Independent of the contact angle
+    /// there.
     pub(crate) fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
         let up_to = up_to * self.scale;
         let lowest = self.lowest.filter(|lowest| lowest.curvature <= up_to)?;

@@ -21,8 +21,7 @@ impl WendlandC2 {
         Self { h, inverse_h: 1.0 / h, norm, gradient_norm: 5.0 * norm / (h * h) }
     }
 
-    /// The kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
-    /// the perfect lattice.
+    /// The kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over the perfect lattice.
     ///
     /// Both approximate integrals that are 1; at h = 1.5 dx they are 1.0051 and .9974. Divided by them, the volume of Eq. (17) is dx²
     /// on the lattice, and gradient, divergence and Laplacian of Eqs. (15) to (31) are exact there for linear (quadratic) fields.

@@ -1,8 +1,7 @@
 //! Periodic sides with a given flow rate: the mean pressure gradient that drives it is an additional unknown of the pressure equation.
 //!
-//! The pressure is p − G·x with p periodic. The velocity at the end of the step is linear in G, so that for each direction w = ∂v/∂(Δt G)
-//! follows from an additional right-hand side of the same matrix, and G from the required rate (Patankar, Liu and Sparrow 1977). The
-//! profile is not prescribed: it develops.
+//! The pressure is p − G·x with p periodic. The velocity at the end of the step is linear in G, so that for each direction w = ∂v/∂(Δt G) follows from an
+//! additional right-hand side of the same matrix, and G from the required rate (Patankar, Liu and Sparrow 1977). The profile is not prescribed: it develops.
 
 use nalgebra::{Matrix2, Vector2};
 

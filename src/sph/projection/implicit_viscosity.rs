@@ -1,9 +1,8 @@
 //! Implicit viscosity, which does not limit the time step.
 //!
-//! The forces F(v) at the beginning of the step, including the previous pressure, give the change δ of the velocity,
-//! (m + θ Δt K) δ = Δt F(v), with the viscous matrix K: for F = −K v this is the θ method. Parts of the viscous force that are not in K (the
-//! transposed stress, images in Szewc's form) are explicit: with the transposed stress at most 2K acts, which remains stable. Where F = 0,
-//! δ = 0: rest and steady flow do not depend on the time step.
+//! The forces F(v) at the beginning of the step, including the previous pressure, give the change δ of the velocity, (m + θ Δt K) δ = Δt F(v), with the viscous
+//! matrix K: for F = −K v this is the θ method. Parts of the viscous force that are not in K (the transposed stress, images in Szewc's form) are explicit: with
+//! the transposed stress at most 2K acts, which remains stable. Where F = 0, δ = 0: rest and steady flow do not depend on the time step.
 //!
 //! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, gives the trapezoidal rule for short
 //! steps and backward Euler for long ones, and no mode changes sign.

@@ -94,8 +94,7 @@ impl Flow {
         }
     }
 
-    /// Computes the pressure that the viscous step and open sides need from a previous step, where there is none: that which balances the forces
-    /// at time zero.
+    /// Computes the pressure that the viscous step and open sides need from a previous step, where there is none: that which balances the forces at time zero.
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
         self.start_given_flow()?;
         for _ in 0..if self.config.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {

@@ -157,9 +157,8 @@ fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_we
 
 /// The curvature without the noise of single fits \[vanCittert1931\]: S κ + g (S κ − S² κ), S the average over fluid particles with a curvature.
 ///
-/// The second term compensates for the attenuation of resolved waves, to fourth order in kh, by S, the fits and the
-/// smoothed color. The curvature of an interface at rest is unchanged, also at a wall: `rest(a, b)` in 1/m is the difference at rest of the
-/// curvature at a from that at b.
+/// The second term compensates for the attenuation of resolved waves, to fourth order in kh, by S, the fits and the smoothed color. The curvature of an
+/// interface at rest is unchanged, also at a wall: `rest(a, b)` in 1/m is the difference at rest of the curvature at a from that at b.
 fn smoothed(
     curvature: Vec<f64>,
     Neighborhood { pairs, images }: &Neighborhood,

@@ -45,7 +45,8 @@ pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push:
     each(push, |a| all[a] - average::over_fluid(a, pairs, fluid_volume, &all));
 }
 
-/// δr_a = −`diffusion` ∇C_a, at most 0.1 h \[Lind2012; Skillen2013\]. `shifting_vector` is ∇C with the anti-clustering force in 1/m, `diffusion` in m², `h` and result in m.
+/// δr_a = −`diffusion` ∇C_a, at most 0.1 h \[Lind2012; Skillen2013\]. `shifting_vector` is ∇C with the anti-clustering force in 1/m, `diffusion` in m², `h` and
+/// result in m.
 pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec2> {
     values(shifting_vector.len(), |a| {
         let by = -diffusion * shifting_vector[a];

@@ -38,8 +38,7 @@ impl Viscous<'_> {
         })
     }
 
-    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: the factor of v_ab in the force of b on a in Morris's form.
-    /// Symmetric in a and b.
+    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: the factor of v_ab in the force of b on a in Morris's form. Symmetric in a and b.
     #[inline]
     pub(crate) fn coupling(&self, a: usize, ab: &Pair) -> f64 {
         -self.volume[a] * self.friction(a, ab)

@@ -34,8 +34,8 @@ pub(super) fn plain(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     (0..count).map(|point| (Matrix::A, (0..inputs).map(|k| coordinate(point, k, seed)).collect())).collect()
 }
 
-/// The rows for Sobol indices [SaltelliEtAl2010, Sect. 3]: for each sample one of A, one of B, and one of A with the column of B for each input. Samples follow one
-/// another, so that the first rows are those of fewer samples.
+/// The rows for Sobol indices [SaltelliEtAl2010, Sect. 3]: for each sample one of A, one of B, and one of A with the column of B for each input. Samples follow
+/// one another, so that the first rows are those of fewer samples.
 pub(super) fn saltelli(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     let rows = |point: usize| {
         let [a, b] =
