@@ -75,6 +75,7 @@ pub(crate) fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> 
 mod tests {
     use super::*;
 
+    /// [Roache1998]
     #[test]
     fn order_and_limit_of_a_power_law_are_recovered() {
         let h = [0.1, 0.06, 0.02];
@@ -96,6 +97,7 @@ mod tests {
         assert!(observed_order(&[0.1, 0.05, 0.025], &[1.0, 1.2, 1.5]) < 0.0);
     }
 
+    /// [Eca2014]
     #[test]
     fn two_uncertainties_cover_the_errors_of_power_laws() {
         let h = [0.1, 0.05, 0.025, 0.0125];

@@ -35,6 +35,7 @@ mod tests {
     use super::*;
     use crate::interface::lattice::Lattice;
 
+    /// [Serra1982]
     #[test]
     fn films_and_single_particles_are_thin_and_drops_and_interfaces_are_not() {
         let points = Lattice::open(Vec2::zeros(), Vec2::repeat(1.0), [40, 40]).nodes();

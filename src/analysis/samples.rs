@@ -58,6 +58,7 @@ pub(crate) fn sobol_indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Option<
 mod tests {
     use super::*;
 
+    /// [HyndmanFan1996]
     #[test]
     fn quantiles_lie_between_order_statistics() {
         let values = [1.0, 2.0, 4.0, f64::INFINITY];
@@ -70,6 +71,7 @@ mod tests {
         assert_eq!((mean(&[0.1; 7]), deviation(&[0.1; 7])), (0.1, 0.0));
     }
 
+    /// [SaltelliEtAl2010; Jansen1999]
     #[test]
     fn a_sum_shares_its_variance_by_that_of_its_terms() {
         // Pseudo-random numbers between 0 and 1, the same each time.

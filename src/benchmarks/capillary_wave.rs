@@ -84,6 +84,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 mod tests {
     use super::*;
 
+    /// [Prosperetti1981]
     #[test]
     fn the_capillary_wave_of_equal_fluids_has_the_printed_amplitudes() {
         let wave = CapillaryWave { length: 1.0, tension: 1.0, density: 1.0, viscosity: 0.018_257_174_9 };

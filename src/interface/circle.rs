@@ -306,6 +306,7 @@ mod tests {
         2.0 * (x - x.floor()) - 1.0
     }
 
+    /// [Chernov2010; Karimaki1991]
     #[test]
     fn exact_arcs_of_any_extent_are_recovered() {
         let center = Vec2::new(3.0e-4, -2.0e-4);
@@ -333,6 +334,7 @@ mod tests {
         assert!(fit.curvature_error().is_finite());
     }
 
+    /// [Karimaki1991]
     #[test]
     fn scatter_of_noisy_arcs_agrees_with_the_standard_error() {
         let (mut off, mut claimed) = (0.0, 0.0);

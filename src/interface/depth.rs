@@ -212,6 +212,7 @@ mod tests {
         assert!((profile_factor(1e-2) - 1.0).abs() < 0.01 && (profile_factor(1e4) - 1.19).abs() < 0.005);
     }
 
+    /// [MayerStowe1965; Princen1969; Princen1970]
     #[test]
     fn ducts_are_entered_at_the_pressure_of_mayer_stowe_and_princen() {
         let known = [
@@ -232,6 +233,7 @@ mod tests {
         }
     }
 
+    /// [ParkHomsy1984]
     #[test]
     fn a_flat_bubble_has_the_pressure_of_the_exact_surface_of_revolution() {
         // Integrated numerically: angle, radius of the contact line over the depth, and p b/sigma.
@@ -271,6 +273,7 @@ mod tests {
         }
     }
 
+    /// [Bretherton1961]
     #[test]
     fn menisci_leave_films_where_no_angle_holds_their_lines() {
         let film = |deg: f64, number: f64| with_one_angle(deg).film_left(number);

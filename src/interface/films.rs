@@ -84,6 +84,7 @@ mod tests {
         Corner::new(wall.to_radians(), plate.to_radians()).unwrap()
     }
 
+    /// [LenormandZarconeSarr1983]
     #[test]
     fn films_of_equal_angles_meet_in_the_narrower_gap() {
         for deg in [0.0_f64, 20.0, 44.0] {
@@ -97,6 +98,7 @@ mod tests {
         assert_eq!(meeting(1e-5, 1e-5, [&WallFilms::new(0.8, [0.8; 2]); 2]), 0.0);
     }
 
+    /// [Princen1969; Princen1970]
     #[test]
     fn arcs_of_unequal_angles_end_where_their_arms_do() {
         let corner = corner(20.0, 55.0);

@@ -107,6 +107,7 @@ mod tests {
     use crate::math::Bounds;
     use crate::sph::domain::ImageVelocity;
 
+    /// [Huber2013, Eqs. 32-34]
     #[test]
     fn a_particle_in_a_corner_of_two_mirrors_has_three_images() {
         let mirror = |axis, image| Mirror { axis, at: 0.0, image };

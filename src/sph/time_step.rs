@@ -171,6 +171,7 @@ pub(crate) fn landing(step: TimeStep, time: f64, until: f64) -> TimeStep {
 mod tests {
     use super::*;
 
+    /// [Huber2013, Eq. 27]
     #[test]
     fn steps_land_on_the_record_without_a_sliver() {
         let (mut time, until) = (0.0, 1.0);

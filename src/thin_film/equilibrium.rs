@@ -114,6 +114,7 @@ mod tests {
     use super::super::kernel::{Kernel, Order};
     use super::*;
 
+    /// [Pang2022, Sect. 5]
     #[test]
     fn a_unit_slope_gives_the_table_of_wetting_parameters() {
         // alpha, chi, r, xi, B1, B2, overlap, foot; evaluated from the closed form with 30 digits, printed to 10.

@@ -79,6 +79,7 @@ pub fn exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
 mod tests {
     use super::*;
 
+    /// [Pang2022, Sect. 4]
     #[test]
     fn the_foot_of_a_cosine_is_one_quarter_wave_and_one_slope_away() {
         let x: Vec<f64> = (-200..=200).map(|i| 0.01 * f64::from(i) + 0.003).collect();

@@ -128,6 +128,7 @@ fn least(function: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// [Pang2022, Eqs. 12-14]
     #[test]
     fn a_shot_solves_its_equation() {
         let step = 0.005;

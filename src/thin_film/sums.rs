@@ -175,6 +175,7 @@ mod tests {
         a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
     }
 
+    /// [Pang2022, Sect. 3]
     #[test]
     fn the_recursion_agrees_with_the_direct_sums() {
         for (count, half, alpha) in

@@ -29,6 +29,7 @@ impl WettingModel for Bracke {
 mod tests {
     use super::*;
 
+    /// [Bracke1989]
     #[test]
     fn the_cosine_of_a_liquid_that_wets_completely_is_1_less_4_roots_of_the_capillary_number() {
         let model = Bracke { contact_angle_deg: 0.0 };

@@ -36,6 +36,7 @@ impl WettingModel for CoxVoinov {
 mod tests {
     use super::*;
 
+    /// [Voinov1976; Cox1986, Eq. 8.3]
     #[test]
     fn angles_for_a_logarithm_of_ten_are_the_published_ones() {
         let length = 1.0e-4;

@@ -29,6 +29,7 @@ impl WettingModel for Jiang {
 mod tests {
     use super::*;
 
+    /// [Jiang1979, Eq. 7]
     #[test]
     fn angles_are_the_published_ones() {
         let model = Jiang { contact_angle_deg: 46.8 };

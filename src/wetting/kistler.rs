@@ -50,6 +50,7 @@ fn shift(angle: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// [Kistler1993]
     #[test]
     fn angles_are_the_published_ones() {
         let model = Kistler { contact_angle_deg: 46.8 };

@@ -55,6 +55,7 @@ mod tests {
     use super::*;
     use crate::wetting::LineFriction;
 
+    /// [Blake1969]
     #[test]
     fn a_slow_line_feels_a_friction_in_proportion_to_its_speed() {
         let model =

@@ -66,6 +66,7 @@ pub(super) fn order(receding: f64, advancing: f64) -> Option<Problem> {
 mod tests {
     use super::*;
 
+    /// [Tadmor2004]
     #[test]
     fn tadmor_gives_the_angles_of_the_alkanes() {
         // Advancing and receding angles of Lam et al. 2002 as printed in Table 1 of Huber et al. 2013.

@@ -73,6 +73,7 @@ impl WendlandC2 {
 mod tests {
     use super::*;
 
+    /// [Huber2013, Eq. 14]
     #[test]
     fn the_kernel_integrates_to_one() {
         let kernel = WendlandC2::new(0.3);
@@ -82,6 +83,7 @@ mod tests {
         assert!((sum - 1.0).abs() < 1e-8, "{sum}");
     }
 
+    /// [Huber2013, Eqs. 21-23]
     #[test]
     fn the_line_integral_is_the_integral_along_a_line() {
         let kernel = WendlandC2::new(1.7);
@@ -92,6 +94,7 @@ mod tests {
         assert!((sum * 1.7 - 0.3714).abs() < 1e-4);
     }
 
+    /// [Huber2013, Eq. 14]
     #[test]
     fn the_gradient_is_the_derivative_of_the_kernel() {
         let kernel = WendlandC2::new(0.8);

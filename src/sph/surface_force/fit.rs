@@ -256,6 +256,7 @@ mod tests {
         (x.y, Vec2::y())
     }
 
+    /// [Pratt1987]
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
@@ -269,6 +270,7 @@ mod tests {
         assert_eq!(fit.curvature(Vec2::new(0.0, 2.0)), None);
     }
 
+    /// [Pratt1987]
     #[test]
     fn a_rough_interface_has_the_same_curvature_on_both_sides() {
         // Bumps of a tenth of a spacing, 2.3 spacings apart, as from single particles on the wrong side of the interface.

@@ -124,6 +124,7 @@ mod tests {
             .collect()
     }
 
+    /// [Oliver1977]
     #[test]
     fn a_drop_that_ends_at_an_edge_has_one_curvature_at_any_angle_between_those_of_both_faces() {
         let domain = Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]);

@@ -244,6 +244,7 @@ mod tests {
         Wetting::Hysteresis(Hysteresis { advancing_angle_deg: 100.0, receding_angle_deg: 60.0 })
     }
 
+    /// [Dussan1979]
     #[test]
     fn a_line_within_its_range_is_drawn_back_to_its_anchor() {
         let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
@@ -254,6 +255,7 @@ mod tests {
         assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
     }
 
+    /// [Dussan1979]
     #[test]
     fn a_line_beyond_its_range_has_the_bound_and_takes_its_anchor_along() {
         let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);

@@ -68,6 +68,7 @@ pub(super) fn factor(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
 mod tests {
     use super::*;
 
+    /// [Burley2020]
     #[test]
     fn a_sample_of_a_power_of_two_has_one_value_in_each_stratum() {
         const COUNT: usize = 256;
@@ -81,6 +82,7 @@ mod tests {
         assert_eq!(plain(4, 2, 1), plain(8, 2, 1)[..4]);
     }
 
+    /// [SaltelliEtAl2010, Sect. 3]
     #[test]
     fn a_mixed_row_has_one_column_of_the_other_matrix() {
         let rows = saltelli(8, 2, 1);
