@@ -54,10 +54,8 @@ const LEAST_ORDER: f64 = 0.5;
 /// An observed order higher than that of the method is coincidence.
 const ORDER_OF_METHOD: f64 = 2.0;
 
-/// The standard uncertainty of the value at each spacing, `spacings` from coarse to fine; `None` for fewer than three \[Eca2014; Roache1998\].
-///
-/// If the finest three converge: half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at least the distance
-/// from the finest.
+/// The standard uncertainty of the value at each spacing, `spacings` from coarse to fine; `None` for fewer than three \[Eca2014; Roache1998\]. If the finest
+/// three converge: half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at least the distance from the finest.
 pub(crate) fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (spacings, values) else { return None };
     let observed = extrapolate([h1, h2, h3], [f1, f2, f3]).map(|found| found.order);

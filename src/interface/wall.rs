@@ -39,10 +39,8 @@ pub(crate) fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool,
     if there.dot(&along) > TURNED { there } else { normal }
 }
 
-/// The parts of `lines` in the pore, ending on the wall.
-///
-/// Contour a field that extends a spacing or two into the solid and clip it here: a field that is missing at the nodes of the solid breaks contours that meet
-/// the wall at a small angle into fragments.
+/// The parts of `lines` in the pore, ending on the wall. Contour a field that extends a spacing or two into the solid and clip it here: a field that is missing
+/// at the nodes of the solid breaks contours that meet the wall at a small angle into fragments.
 pub fn clip(lines: &[Polyline], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
     lines.iter().flat_map(|line| clip_line(line, wall)).collect()
 }

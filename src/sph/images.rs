@@ -20,9 +20,8 @@ pub struct Images {
 }
 
 impl Images {
-    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points` [Huber2013, Eqs. 32-34].
-    ///
-    /// Corner images are images of images, so that a particle near two mirrors has three.
+    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points` [Huber2013, Eqs. 32-34]. Corner images are images of
+    /// images, so that a particle near two mirrors has three.
     pub fn append(points: &mut Vec<Vec2>, domain: &Domain, support: f64) -> Self {
         let first = points.len();
         let mut images = Self { first, mirrors: domain.mirrors.clone(), ..Self::default() };

@@ -35,11 +35,9 @@ impl WettingModel for Tadmor {
     }
 }
 
-/// Equilibrium contact angle in rad from an advancing and a receding one \[Tadmor2004\].
-///
-/// cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G = (sin³/(2 - 3 cos + cos³))^(1/3).
-///
-/// Evaluated with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0 gives an equilibrium angle of 0.
+/// Equilibrium contact angle in rad from an advancing and a receding one \[Tadmor2004\]. cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G =
+/// (sin³/(2 - 3 cos + cos³))^(1/3). Evaluated with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0
+/// gives an equilibrium angle of 0.
 pub(super) fn tadmor(advancing: f64, receding: f64) -> f64 {
     let inverse = |angle: f64| {
         let half = 0.5 * angle;

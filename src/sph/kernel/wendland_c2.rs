@@ -52,9 +52,7 @@ impl WendlandC2 {
         (w, r_ab * slope)
     }
 
-    /// W(r) in 1/m² and (1/r) dW/dr in 1/m⁴.
-    ///
-    /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
+    /// W(r) in 1/m² and (1/r) dW/dr in 1/m⁴. dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
     #[inline]
     pub(crate) fn w_and_slope(&self, r: f64) -> (f64, f64) {
         let q = r * self.inverse_h;

@@ -11,9 +11,8 @@ use crate::sph::parallel::values;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
-/// The matrix of the pressure equation times −V_a [Huber2013, Eq. 30]; images are identified with their sources, as p' = p.
-///
-/// `volume` in m² and `density` in kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
+/// The matrix of the pressure equation times −V_a [Huber2013, Eq. 30]; images are identified with their sources, as p' = p. `volume` in m² and `density` in
+/// kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
 pub fn assemble(
     pairs: &Pairs,
     images: &Images,

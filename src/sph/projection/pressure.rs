@@ -45,10 +45,8 @@ struct PressureEquation {
 }
 
 impl View<'_, Fields> {
-    /// The pressure that makes the velocity at the end of the step divergence-free [Huber2013, Eqs. 28, 29], with zero mean over each
-    /// component in which no open side gives it.
-    ///
-    /// The right-hand side includes the density-error correction, which is not in the paper.
+    /// The pressure that makes the velocity at the end of the step divergence-free [Huber2013, Eqs. 28, 29], with zero mean over each component in which no
+    /// open side gives it. The right-hand side includes the density-error correction, which is not in the paper.
     pub(super) fn project(
         &self,
         predicted: &Predicted,

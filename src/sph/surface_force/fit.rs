@@ -1,8 +1,7 @@
 //! Curvature of the interface from local circle fits, free in the bulk and constrained to the contact angle at walls.
 //!
-//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A fit to a stencil that ends at a
-//! wall would assign the curvature of its middle to its end. So the deflection by the known gradient is subtracted from the points before a
-//! circle is fitted (`stencils`).
+//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A fit to a stencil that ends at a wall would assign
+//! the curvature of its middle to its end. So the deflection by the known gradient is subtracted from the points before a circle is fitted (`stencils`).
 //!
 //! At a pinned contact line the fit responds stiffly to the position of the interface, and not as the gradient of an energy: evaluated at the
 //! start of a step, it amplifies the waves of a liquid of low viscosity. There the points at the end of the step are used.

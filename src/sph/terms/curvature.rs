@@ -15,9 +15,8 @@ pub fn unit_normal(normal: &[Vec2], h: f64) -> Vec<Vec2> {
     })
 }
 
-/// Curvature κ = −∇·n̂ in 1/m [Huber2013, Eq. 19; Morris2000, Sect. 3.3], positive for a drop of the wetting phase.
-///
-/// κ_a = −Σ_b V_b (n̂_b − n̂_a)·∇_a W_ab / Σ_b V_b W_ab, over fluid with a valid normal.
+/// Curvature κ = −∇·n̂ in 1/m [Huber2013, Eq. 19; Morris2000, Sect. 3.3], positive for a drop of the wetting phase. κ_a = −Σ_b V_b (n̂_b − n̂_a)·∇_a W_ab / Σ_b
+/// V_b W_ab, over fluid with a valid normal.
 pub fn curvature(pairs: &Pairs, fluid_volume: &[f64], unit_normal: &[Vec2], count: usize) -> Vec<f64> {
     let valid = |a: usize| unit_normal[a] != Vec2::zeros();
     values(count, |a| {

@@ -29,9 +29,8 @@ pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
     }
 }
 
-/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m, which grows steeply at distances below dx \[Monaghan2000; Lind2012\].
-///
-/// ∇C can vanish for particles clustered in pairs or rows; this sum does not. `w_of_spacing` = W(dx) in 1/m².
+/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m, which grows steeply at distances below dx \[Monaghan2000; Lind2012\]. ∇C can vanish for particles clustered
+/// in pairs or rows; this sum does not. `w_of_spacing` = W(dx) in 1/m².
 pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacing: f64, count: usize) -> Vec<Vec2> {
     pairs.sums(count, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w)
 }
@@ -54,9 +53,8 @@ pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec
     })
 }
 
-/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: for the velocity at the shifted position [Lind2012, Eq. 26].
-///
-/// By the weight a heavy fluid takes hardly any velocity from a light one next to it, as little as momentum; within one fluid it is 1.
+/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: for the velocity at the shifted position [Lind2012, Eq. 26]. By the weight a
+/// heavy fluid takes hardly any velocity from a light one next to it, as little as momentum; within one fluid it is 1.
 pub fn carried_velocity(
     pairs: &Pairs,
     volume: &[f64],

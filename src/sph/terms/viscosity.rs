@@ -22,10 +22,8 @@ impl Viscous<'_> {
         values(count, |a| pairs.of(a).map(|ab| self.friction(a, &ab) * v_ab(a, ab.b)).sum::<Vec2>() / self.density[a])
     }
 
-    /// Viscous acceleration of the paper in m/s² [Huber2013, Eq. 16; Szewc2012].
-    ///
-    /// Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η = μ/ρ. r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²)
-    /// is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
+    /// Viscous acceleration of the paper in m/s² [Huber2013, Eq. 16; Szewc2012]. Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η =
+    /// μ/ρ. r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²) is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
     pub fn szewc(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<Vec2> {
         pairs.sums(count, |a, ab| {
             let b = ab.b;
