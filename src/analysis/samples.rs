@@ -30,8 +30,8 @@ pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
     }
 }
 
-/// The first-order and the total index of each input: `a` and `b` are the results for two independent samples, each of `mixed` those for `a` with one input as
-/// in `b` \[SaltelliEtAl2010; Jansen1999\]. First order by the estimator (b) of table 2 of Saltelli et al., with the mean subtracted; total by (f), that of
+/// The first-order and the total index of each input \[SaltelliEtAl2010; Jansen1999\]. `a` and `b` are the results for two independent samples, each of `mixed`
+/// those for `a` with one input as in `b`. First order by the estimator (b) of table 2 of Saltelli et al., with the mean subtracted; total by (f), that of
 /// Jansen. `None` if nothing varies.
 pub(crate) fn sobol_indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Option<Vec<[f64; 2]>> {
     let all: Vec<f64> = a.iter().chain(b).copied().collect();

@@ -35,7 +35,7 @@ impl CapillaryWave {
         (self.tension * k.powi(3) / (2.0 * self.density)).sqrt()
     }
 
-    /// Amplitude at `time` (s) relative to that at time zero, from rest, for equal fluids \[Prosperetti1981\].
+    /// Amplitude of a capillary wave at `time` (s) relative to that at time zero, from rest, for equal fluids \[Prosperetti1981\].
     ///
     /// Its Laplace transform is 1/(s + w² (1 - k/sqrt(k² + s/nu))/s).
     pub(crate) fn amplitude(&self, time: f64) -> f64 {

@@ -64,9 +64,9 @@ impl WallFilms {
     }
 }
 
-/// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m): on a wall, on the
-/// floor or on the lid, whichever comes first as the pressure falls \[LenormandZarconeSarr1983\]. For equal angles 2 (cos θ - sin θ) over the smaller of width
-/// and depth; 0 if there is no film.
+/// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m)
+/// \[LenormandZarconeSarr1983\]: on a wall, on the floor or on the lid, whichever comes first as the pressure falls. For equal angles 2 (cos θ - sin θ) over
+/// the smaller of width and depth; 0 if there is no film.
 pub fn meeting(width: f64, depth: f64, walls: [&WallFilms; 2]) -> f64 {
     let on_walls = walls.map(|wall| wall.along_wall() / depth);
     let [one, other] = walls.map(WallFilms::along_plates);

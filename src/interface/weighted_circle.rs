@@ -48,7 +48,7 @@ pub(crate) struct WeightedCircle {
 }
 
 impl WeightedCircle {
-    /// Weighted least squares through `near` \[Pratt1987\], `None` for fewer than five points; `normal` is approximately that of the interface.
+    /// Weighted least squares through `near` \[Pratt1987\], `None` for fewer than five points. `normal` is approximately that of the interface.
     pub(crate) fn through(near: &[WeightedPoint], normal: Vec2) -> Option<Self> {
         if near.len() < FEWEST {
             return None;
@@ -140,8 +140,8 @@ pub(crate) fn fit_from_contact(
     found.map(|kappa| (kappa, delta))
 }
 
-/// Angle in rad at which the circle through `anchor` (m, relative to the origin of `near`) meets the wall with the normal `wall`; `normal` is approximately
-/// that of the interface \[Dussan1979\].
+/// Angle in rad at which the circle through `anchor` (m, relative to the origin of `near`) meets the wall with the normal `wall` \[Dussan1979\]. `normal` is
+/// approximately that of the interface.
 ///
 /// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²). `None` if the points do not determine it.
 pub(crate) fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {

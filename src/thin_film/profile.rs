@@ -28,7 +28,7 @@ pub struct Foot {
 }
 
 impl Profile {
-    /// The foot on the right: y* = argmax(−h̄ₓ) over x > `from` [Pang2022, Sect. 4]. The contact line is y* + h̄/|h̄ₓ|.
+    /// The contact line on the right by the tangent at the steepest point, y* = argmax(−h̄ₓ) over x > `from` [Pang2022, Sect. 4]. It is y* + h̄/|h̄ₓ|.
     ///
     /// The paper's text names the maximum of h̄, where the tangent is horizontal; the steepest point is meant. The position is stationary in y*, so that a
     /// parabola through three slopes gives it with an error of fourth order in their spacing.

@@ -62,7 +62,7 @@ impl Implicit for Shooting {
     }
 }
 
-/// The self-similar shape f at the ascending positions `eta` for f(0) and f''(0) [Pang2022, Eqs. 12-14]; the list ends where the integration fails near the
+/// The self-similar shape f at the ascending positions `eta` for f(0) and f''(0) [Pang2022, Eqs. 12-14]. The list ends where the integration fails near the
 /// wall.
 pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     let tolerance = Tolerance { absolute: TOLERANCE * height, relative: TOLERANCE };

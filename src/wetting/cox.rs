@@ -29,7 +29,7 @@ law! {
 }
 
 impl WettingModel for Cox {
-    /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d \[Cox1986\]; 0 or π where there is no solution, as the line then deposits a film.
+    /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d \[Cox1986\]. 0 or π where there is no solution, as the line then deposits a film.
     fn angle(&self, line: &LineState) -> f64 {
         let static_angle = self.static_angle();
         let decades = (line.slip_length / self.slip_length).ln().max(0.0);

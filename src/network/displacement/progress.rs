@@ -94,7 +94,7 @@ impl Division {
 }
 
 impl Displacement {
-    /// The pore space full of the defending phase, except elements open at an inlet: openings have no entry pressure \[WilkinsonWillemsen1983\].
+    /// Invasion of a pore space full of the defending phase \[WilkinsonWillemsen1983\], except elements open at an inlet: openings have no entry pressure.
     pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
         Self::within(&Division::of(network, pores, conditions.events), conditions)
     }

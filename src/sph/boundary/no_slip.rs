@@ -64,7 +64,7 @@ impl NoSlip {
         [if b == 0.0 { across } else { self.stretch_to(distance, wall, b).max(0.0) }, across]
     }
 
-    /// The stretched difference of the velocity `v_ab` = v_a − v_wall \[Navier1823\]: with a slip length b (m), the part along the wall is stretched by
+    /// The stretched difference of the velocity `v_ab` = v_a − v_wall \[Navier1823\]. With a slip length b (m), the part along the wall is stretched by
     /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) from and `normal` of the wall.
     pub(crate) fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
         let [along, beta] = self.stretches(distance, wall, b);

@@ -11,7 +11,7 @@ use crate::sph::parallel::values;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
-/// The matrix of the pressure equation times −V_a [Huber2013, Eq. 30]; images are identified with their sources, as p' = p. `volume` in m² and `density` in
+/// The matrix of the pressure equation times −V_a [Huber2013, Eq. 30]. Images are identified with their sources, as p' = p. `volume` in m² and `density` in
 /// kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
 pub fn assemble(
     pairs: &Pairs,

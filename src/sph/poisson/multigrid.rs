@@ -100,7 +100,7 @@ impl Multigrid {
         backward(matrix, r, &residual, z);
     }
 
-    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Alg. 3.2) \[Notay2010\].
+    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Algorithm 3.2) \[Notay2010\].
     fn inner<T: Unknown>(&self, depth: usize, matrix: &Matrix, b: &[T]) -> Vec<T> {
         let n = b.len();
         let mut c = vec![T::ZERO; n];

@@ -38,7 +38,7 @@ impl View<'_, Fields> {
         self.fields.interface.force.jump().is_some()
     }
 
-    /// The right-hand side of the pressure equation for the unit gradient along `axis` \[PatankarLiuSparrow1977\]; `matrix` as assembled.
+    /// The right-hand side of the pressure equation for the unit gradient along `axis` \[PatankarLiuSparrow1977\]. `matrix` as assembled.
     pub(super) fn right_side_of_gradient(&self, axis: Vec2, matrix: &Matrix) -> Vec<f64> {
         if !self.gradient_in_pressure() {
             let by = (0..self.state.particles.moving()).map(|a| axis / self.fields.bulk.density[a]).collect();

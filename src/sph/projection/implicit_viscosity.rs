@@ -170,7 +170,7 @@ impl ViscousMatrix<'_> {
     }
 }
 
-/// The weight of the end of the step \[Liniger1970\], from 1/2 for short to 1 for long steps; `z` is the time step times the largest rate.
+/// The weight of the end of the step \[Liniger1970\], from 1/2 for short to 1 for long steps. `z` is the time step times the largest rate.
 fn theta(z: f64) -> f64 {
     if z < SHORT { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
 }

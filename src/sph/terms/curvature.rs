@@ -7,7 +7,7 @@ use crate::sph::parallel::values;
 /// |n| in units of 1/h below which a normal is noise, for [`unit_normal`].
 const SMALLEST_NORMAL: f64 = 0.01;
 
-/// The unit normal n̂_a of normals n_a longer than 0.01/h, else zero, which means not valid [Morris2000, Sect. 3.3]. `h` in m.
+/// The unit normal n̂_a of normals n_a longer than 0.01/h, else zero: not valid [Morris2000, Sect. 3.3]. `h` in m.
 pub fn unit_normal(normal: &[Vec2], h: f64) -> Vec<Vec2> {
     values(normal.len(), |a| {
         let length = normal[a].norm();

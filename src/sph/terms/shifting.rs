@@ -19,8 +19,8 @@ pub(crate) fn concentration_gradient(pairs: &Pairs, volume: &[f64], count: usize
     pairs.sums(count, |_, ab| volume[ab.b] * ab.grad_w)
 }
 
-/// Removes the component of a concentration gradient normal to the interface, as at a free surface \[Lind2012\], so that the interface keeps its position and
-/// shape; `normal` is the color gradient in 1/m, `h` in m.
+/// Removes the component of a concentration gradient normal to the interface, as at a free surface \[Lind2012\]. The interface then keeps its position and
+/// shape. `normal` is the color gradient in 1/m, `h` in m.
 pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
     for (gradient, n) in gradient.iter_mut().zip(normal) {
         if n.norm() > INTERFACE / h {
@@ -35,7 +35,7 @@ pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacin
     pairs.sums(count, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w)
 }
 
-/// The anti-clustering force s_a \[Monaghan2000\] less its average over the surrounding fluid: the rest separates neighbors without collective displacement.
+/// The anti-clustering force s_a \[Monaghan2000\] less its average over the surrounding fluid. The rest separates neighbors without collective displacement.
 ///
 /// The mean of these short-range forces drives particles from strained regions to regions at rest. The pressure would have to return the fluid by
 /// a spurious flow, also through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
