@@ -26,13 +26,11 @@ pub(crate) fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 
     Vec2::new(wrap(difference.x, period[0]), wrap(difference.y, period[1]))
 }
 
-/// Half the second moment of [`wendland_c2`] along a line through its center, over its zeroth moment, in h².
-///
-/// Smoothing reduces the amplitude of an interface wave by k²h² times this; it displaces the level 1/2 of a disc of curvature κ towards the center by h²κ
-/// times this.
+/// Half the second moment of [`wendland_c2`] along a line through its center, over its zeroth moment, in h². Smoothing reduces the amplitude of an interface
+/// wave by k²h² times this; it displaces the level 1/2 of a disc of curvature κ towards the center by h²κ times this.
 pub(crate) const LINE_MOMENT: f64 = 1.0 / 7.0;
 
-/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is 4π/7 [Huber2013, Eq. 14].
+/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is 4π/7.
 #[inline]
 pub(crate) fn wendland_c2(q: f64) -> f64 {
     let t = (1.0 - 0.5 * q).max(0.0);

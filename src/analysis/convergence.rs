@@ -5,7 +5,7 @@
 
 use super::roots::bisect;
 
-/// Slope of log(error) over log(spacing) by least squares; NaN for fewer than two points or an error of 0.
+/// Slope of log(error) over log(spacing) by least squares; NaN for fewer than two points or an error of 0 \[Roache1998\].
 pub(crate) fn observed_order(spacings: &[f64], errors: &[f64]) -> f64 {
     let count = spacings.len().min(errors.len()) as f64;
     let points = || spacings.iter().zip(errors).map(|(h, e)| (h.ln(), e.abs().ln()));
@@ -54,10 +54,8 @@ const LEAST_ORDER: f64 = 0.5;
 /// An observed order higher than that of the method is coincidence.
 const ORDER_OF_METHOD: f64 = 2.0;
 
-/// The standard uncertainty of the value at each spacing, `spacings` from coarse to fine; `None` for fewer than three.
-///
-/// If the finest three converge: half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at least the distance
-/// from the finest (after Eça and Hoekstra 2014).
+/// The standard uncertainty of the value at each spacing, `spacings` from coarse to fine; `None` for fewer than three \[Eca2014; Roache1998\]. If the finest
+/// three converge: half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at least the distance from the finest.
 pub(crate) fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (spacings, values) else { return None };
     let observed = extrapolate([h1, h2, h3], [f1, f2, f3]).map(|found| found.order);
@@ -75,6 +73,7 @@ pub(crate) fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> 
 mod tests {
     use super::*;
 
+    /// [Roache1998]
     #[test]
     fn order_and_limit_of_a_power_law_are_recovered() {
         let h = [0.1, 0.06, 0.02];
@@ -96,6 +95,7 @@ mod tests {
         assert!(observed_order(&[0.1, 0.05, 0.025], &[1.0, 1.2, 1.5]) < 0.0);
     }
 
+    /// [Eca2014]
     #[test]
     fn two_uncertainties_cover_the_errors_of_power_laws() {
         let h = [0.1, 0.05, 0.025, 0.0125];

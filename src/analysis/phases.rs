@@ -267,6 +267,7 @@ mod tests {
         assert!((laplace_jump(&samples, Vec2::zeros(), 0.52).mean - 2.0).abs() < 1e-12);
     }
 
+    /// [Huber2013, Eq. 17; HuAdams2006]
     #[test]
     fn density_error_is_that_of_the_inverse_volume() {
         let [rms, largest] = density_error(&[1.0, 1.0 / 1.1], 1.0);

@@ -35,7 +35,7 @@ impl<'a> Samples<'a> {
     }
 }
 
-/// The normalized weights of particles at nodes.
+/// The normalized weights of particles at nodes [Huber2013, Eq. 13].
 #[derive(Debug, Clone)]
 pub struct Stencils {
     /// Particle and weight, node after node.
@@ -121,6 +121,7 @@ mod tests {
         assert!((sum - 1.0).abs() < 1e-6, "midpoint rule: {sum}");
     }
 
+    /// [Huber2013, Eq. 13]
     #[test]
     fn a_constant_is_kept_and_a_void_is_nan() {
         let (points, volumes) = unit_square(20);
@@ -131,6 +132,7 @@ mod tests {
         assert!(values[2].is_nan() && stencils.vector(&points)[2].x.is_nan());
     }
 
+    /// [Huber2013, Eq. 13]
     #[test]
     fn a_linear_field_is_reproduced_inside() {
         let (points, volumes) = unit_square(40);

@@ -14,7 +14,7 @@ const CORE: f64 = 1.5;
 /// Distance from the core in spacings: two layers of particles.
 const REACH: f64 = 2.2;
 
-/// For each particle, whether its phase is locally thinner than about three particles.
+/// For each particle, whether its phase is locally thinner than about three particles \[Serra1982\].
 ///
 /// `points` in m, `is_wetting` the phase of each, `spacing` in m, `period` in m.
 pub(crate) fn thin_parts(points: &[Vec2], is_wetting: &[bool], spacing: f64, period: [Option<f64>; 2]) -> Vec<bool> {
@@ -35,6 +35,7 @@ mod tests {
     use super::*;
     use crate::interface::lattice::Lattice;
 
+    /// [Serra1982]
     #[test]
     fn films_and_single_particles_are_thin_and_drops_and_interfaces_are_not() {
         let points = Lattice::open(Vec2::zeros(), Vec2::repeat(1.0), [40, 40]).nodes();

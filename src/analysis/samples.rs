@@ -13,7 +13,7 @@ pub(crate) fn deviation(values: &[f64]) -> f64 {
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// The quantile at `probability`, 0 to 1, of ascending values, by linear interpolation (Hyndman and Fan 1996, definition 7). Values may be infinite; between an
+/// The quantile at `probability`, 0 to 1, of ascending values, by linear interpolation (definition 7) \[HyndmanFan1996\]. Values may be infinite; between an
 /// infinite and another value the lower one counts.
 pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
     let Some(last) = ascending.len().checked_sub(1) else { return f64::NAN };
@@ -30,9 +30,9 @@ pub(crate) fn quantile(ascending: &[f64], probability: f64) -> f64 {
     }
 }
 
-/// The first-order and the total index of each input: `a` and `b` are the results for two independent samples, each of `mixed` those for `a` with one input as
-/// in `b`. First order by the estimator (b) of table 2 of Saltelli et al. (2010), with the mean subtracted; total by (f), that of Jansen (1999). `None` if
-/// nothing varies.
+/// The first-order and the total index of each input \[SaltelliEtAl2010; Jansen1999\]. `a` and `b` are the results for two independent samples, each of `mixed`
+/// those for `a` with one input as in `b`. First order by the estimator (b) of table 2 of Saltelli et al., with the mean subtracted; total by (f), that of
+/// Jansen. `None` if nothing varies.
 pub(crate) fn sobol_indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Option<Vec<[f64; 2]>> {
     let all: Vec<f64> = a.iter().chain(b).copied().collect();
     let center = mean(&all);
@@ -58,6 +58,7 @@ pub(crate) fn sobol_indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Option<
 mod tests {
     use super::*;
 
+    /// [HyndmanFan1996]
     #[test]
     fn quantiles_lie_between_order_statistics() {
         let values = [1.0, 2.0, 4.0, f64::INFINITY];
@@ -70,6 +71,7 @@ mod tests {
         assert_eq!((mean(&[0.1; 7]), deviation(&[0.1; 7])), (0.1, 0.0));
     }
 
+    /// [SaltelliEtAl2010; Jansen1999]
     #[test]
     fn a_sum_shares_its_variance_by_that_of_its_terms() {
         // Pseudo-random numbers between 0 and 1, the same each time.

@@ -35,7 +35,7 @@ impl CapillaryWave {
         (self.tension * k.powi(3) / (2.0 * self.density)).sqrt()
     }
 
-    /// Amplitude at `time` (s) relative to that at time zero, from rest [Prosperetti1981 for equal fluids].
+    /// Amplitude of a capillary wave at `time` (s) relative to that at time zero, from rest, for equal fluids \[Prosperetti1981\].
     ///
     /// Its Laplace transform is 1/(s + w² (1 - k/sqrt(k² + s/nu))/s).
     pub(crate) fn amplitude(&self, time: f64) -> f64 {
@@ -84,6 +84,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 mod tests {
     use super::*;
 
+    /// [Prosperetti1981]
     #[test]
     fn the_capillary_wave_of_equal_fluids_has_the_printed_amplitudes() {
         let wave = CapillaryWave { length: 1.0, tension: 1.0, density: 1.0, viscosity: 0.018_257_174_9 };

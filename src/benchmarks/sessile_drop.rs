@@ -32,8 +32,7 @@ pub(crate) struct ProfilePoint {
     pub(crate) area: f64,
 }
 
-/// Upper bound of the rotation (rad) per step and of its length over the capillary length: the error of the fourth-order rule is then below 1e-8 of the
-/// sizes.
+/// Upper bound of the rotation (rad) per step and of its length over the capillary length: the error of the fourth-order rule is then below 1e-8 of the sizes.
 const LARGEST_TURN: f64 = 0.01;
 /// Maximum number of steps to reach the inclination.
 const MOST_STEPS: usize = 200_000;

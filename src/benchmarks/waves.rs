@@ -11,7 +11,7 @@ use nalgebra::Complex;
 /// Nodes of the inverse Laplace transform: enough to enclose the poles over three periods, with nine digits unaffected by rounding.
 const NODES: usize = 40;
 
-/// A function of time from its Laplace transform, at `time` (s) above 0 (fixed Talbot contour, Abate & Valkó 2004).
+/// A function of time from its Laplace transform, at `time` (s) above 0, by a fixed Talbot contour \[AbateValko2004\].
 pub(crate) fn inverse_laplace(transform: impl Fn(Complex<f64>) -> Complex<f64>, time: f64) -> f64 {
     let r = 2.0 * NODES as f64 / (5.0 * time);
     let first = 0.5 * (transform(Complex::new(r, 0.0)).re * (r * time).exp());

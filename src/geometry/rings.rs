@@ -112,8 +112,7 @@ pub(crate) fn meetings(rings: &[Vec<Curve>]) -> Vec<Vec2> {
     found
 }
 
-/// The first two rings that cross, and where: each has a part inside the other one and a part outside of it. Rings that touch, and nested rings, do not
-/// cross.
+/// The first two rings that cross, and where: each has a part inside the other one and a part outside of it. Rings that touch, and nested rings, do not cross.
 pub(crate) fn crossing(rings: &[Vec<Curve>]) -> Option<([usize; 2], Vec2)> {
     let edges = Edges::of(rings);
     let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();

@@ -1,8 +1,7 @@
 //! The pore geometry: signed distance to the solid, its normal, and the domain.
 //!
-//! The surface of the solid is represented by exact segments and circular arcs (the cosine wall to 1e-8 of its length), so that distances are exact in the
-//! pore and in the solid, overlaps included. Infinite shapes in a periodic domain are repeated as their part within the domain; all others are repeated as a
-//! whole.
+//! The surface of the solid is represented by exact segments and circular arcs (the cosine wall to 1e-8 of its length), so that distances are exact in the pore
+//! and in the solid, overlaps included. Infinite shapes in a periodic domain are repeated as their part within the domain; all others are repeated as a whole.
 
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Boundary, Nearest, clip_body, complement, union};

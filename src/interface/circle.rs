@@ -127,7 +127,7 @@ impl Parameters {
     }
 }
 
-/// Fits a circle to `points` (m), given in order along the curve.
+/// Fits a circle to `points` (m), given in order along the curve \[Chernov2010; Karimaki1991\].
 ///
 /// # Errors
 /// If there are fewer than three points, or points that coincide or are not finite.
@@ -171,7 +171,7 @@ fn oriented(p: Parameters, chord: Vec2) -> Parameters {
     Parameters { curvature: -p.curvature, direction: p.direction + std::f64::consts::PI, offset: -p.offset }
 }
 
-/// Pratt's algebraic fit: a |y|² + b.y + c with |b|² - 4 a c = 1, least squares; `None` if the points coincide.
+/// Pratt's algebraic fit \[Pratt1987\], `None` if the points coincide. Least squares of a |y|² + b.y + c with |b|² - 4 a c = 1.
 fn pratt(points: &[Vec2]) -> Option<Parameters> {
     let count = points.len() as f64;
     let center = points.iter().sum::<Vec2>() / count;
@@ -306,6 +306,7 @@ mod tests {
         2.0 * (x - x.floor()) - 1.0
     }
 
+    /// [Chernov2010; Karimaki1991]
     #[test]
     fn exact_arcs_of_any_extent_are_recovered() {
         let center = Vec2::new(3.0e-4, -2.0e-4);
@@ -333,6 +334,7 @@ mod tests {
         assert!(fit.curvature_error().is_finite());
     }
 
+    /// [Karimaki1991]
     #[test]
     fn scatter_of_noisy_arcs_agrees_with_the_standard_error() {
         let (mut off, mut claimed) = (0.0, 0.0);

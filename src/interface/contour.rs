@@ -23,7 +23,7 @@ const SAME_VERTEX: f64 = 1e-9;
 /// Marks an edge at which no segment starts.
 const NO_EDGE: usize = usize::MAX;
 
-/// Contours of `values` (one per node of `lattice`, NaN where there is none) at `level`.
+/// Contours of `values` (one per node of `lattice`, NaN where there is none) at `level` \[Lorensen1987; Nielson1991\].
 ///
 /// Open lines come before closed ones, each group in grid order. A line that spans a periodic axis is open, its last vertex the image of the first.
 pub fn contour(lattice: &Lattice, values: &[f64], level: f64) -> Vec<Polyline> {
@@ -180,6 +180,7 @@ mod tests {
         assert!(off < 0.02 * dx, "off by {} dx", off / dx);
     }
 
+    /// [Lorensen1987; Nielson1991]
     #[test]
     fn curvature_of_a_disc_is_one_over_its_radius_and_of_a_hole_its_negative() {
         let lattice = box_of(40);
@@ -224,6 +225,7 @@ mod tests {
         assert!((lines[0].length() - 1.0).abs() < 1e-12, "length {}", lines[0].length());
     }
 
+    /// [Lorensen1987; Nielson1991]
     #[test]
     fn a_uniform_field_has_no_contour() {
         let lattice = box_of(4);

@@ -44,8 +44,8 @@ impl Depth {
         self.wettest
     }
 
-    /// Thickness over depth of each of the films that a receding meniscus leaves on floor and lid at a capillary number of the wetting phase (Bretherton
-    /// 1961, 1.34 Ca^(2/3) of half the depth); `None` where the contact angle permits a receding line, 9 Ca ln(x/l) < θ³ (Cox 1986; Voinov 1976).
+    /// Thickness over depth of each of the films that a receding meniscus leaves on floor and lid at a capillary number of the wetting phase
+    /// \[Bretherton1961\]: 1.34 Ca^(2/3) of half the depth; `None` where the contact angle permits a receding line, 9 Ca ln(x/l) < θ³ (Cox 1986; Voinov 1976).
     pub fn film_left(&self, capillary_number: f64) -> Option<f64> {
         /// Logarithm of the ratio of a depth to a molecular length.
         const LOGARITHM: f64 = 9.0;
@@ -60,12 +60,12 @@ impl Depth {
         (self.corners - other.corners).abs() <= SAME * self.corners.abs().max(other.corners.abs())
     }
 
-    /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose in-plane curvature is `plane` (1/m), above 0 where it bulges into the wetting phase.
+    /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose in-plane curvature is `plane` (1/m), above 0 where it bulges into the wetting phase
+    /// \[MayerStowe1965; Princen1969; Princen1970\].
     ///
-    /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of Mayer
-    /// and Stowe (1965) and Princen (1969, 1970): with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is the contribution of
-    /// the corner films. A meniscus of negative in-plane curvature has no films. The result increases with `plane`, so that a uniform depth preserves the
-    /// order of events.
+    /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of Mayer,
+    /// Stowe and Princen: with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is the contribution of the corner films. A
+    /// meniscus of negative in-plane curvature has no films. The result increases with `plane`, so that a uniform depth preserves the order of events.
     pub fn curvature(&self, plane: f64) -> f64 {
         let both = plane + self.transverse;
         if plane <= 0.0 || self.corners == 0.0 {
@@ -74,10 +74,10 @@ impl Depth {
         0.5 * (both + (both * both - 4.0 * self.corners * plane).max(0.0).sqrt())
     }
 
-    /// The same for an interface that meets floor and lid only: that of a flat drop or bubble.
+    /// (p_n - p_w)/σ in 1/m of an interface that meets floor and lid only: that of a flat drop or bubble \[ParkHomsy1984\].
     ///
     /// Over the depth the interface is an arc, whose tilted parts have a smaller in-plane curvature, κ times the cosine of the tilt: at 0 degrees π/4 of it
-    /// acts (Park and Homsy 1984). This holds for flat drops; as the in-plane curvature exceeds 1/b, all of it acts.
+    /// acts. This holds for flat drops; as the in-plane curvature exceeds 1/b, all of it acts.
     pub fn curvature_of_drop(&self, plane: f64) -> f64 {
         let flat = 1.0 / (1.0 + (plane * self.depth).powi(4));
         plane + self.transverse - (1.0 - self.share) * flat * plane
@@ -137,7 +137,7 @@ pub fn corner_area(one: f64, other: f64) -> f64 {
 }
 
 /// Flow through a duct of the width `ratio` b relative to that between two plates at the distance b: with Q = F b³ w/(12 μ) dp/dx, F = 1 - 192/(π⁵ x) Σ
-/// tanh(n π x/2)/n⁵ over odd n [White, Viscous Fluid Flow, section 3-3.3]; x² for a narrow duct.
+/// tanh(n π x/2)/n⁵ over odd n (White, Viscous Fluid Flow, section 3-3.3); x² for a narrow duct.
 pub fn duct_factor(ratio: f64) -> f64 {
     /// Σ 1/n⁵ over odd n, 31/32 ζ(5).
     const ALL: f64 = 1.004_523_762_795_139_6;
@@ -212,6 +212,7 @@ mod tests {
         assert!((profile_factor(1e-2) - 1.0).abs() < 0.01 && (profile_factor(1e4) - 1.19).abs() < 0.005);
     }
 
+    /// [MayerStowe1965; Princen1969; Princen1970]
     #[test]
     fn ducts_are_entered_at_the_pressure_of_mayer_stowe_and_princen() {
         let known = [
@@ -232,6 +233,7 @@ mod tests {
         }
     }
 
+    /// [ParkHomsy1984]
     #[test]
     fn a_flat_bubble_has_the_pressure_of_the_exact_surface_of_revolution() {
         // Integrated numerically: angle, radius of the contact line over the depth, and p b/sigma.
@@ -271,6 +273,7 @@ mod tests {
         }
     }
 
+    /// [Bretherton1961]
     #[test]
     fn menisci_leave_films_where_no_angle_holds_their_lines() {
         let film = |deg: f64, number: f64| with_one_angle(deg).film_left(number);

@@ -8,7 +8,8 @@
 
 use super::depth::corner_area;
 
-/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface: areas scale with the square of the radius.
+/// A film in a right-angled corner between a wall and a plate, for a unit radius of its surface \[Princen1969; Princen1970\]: areas scale with the square of
+/// the radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
     /// Cross-section.
@@ -26,7 +27,7 @@ impl Corner {
     }
 }
 
-/// The films along one wall: one at the floor, one at the lid.
+/// The films along one wall: one at the floor, one at the lid \[Princen1969; Princen1970\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallFilms {
     corners: [Option<Corner>; 2],
@@ -63,9 +64,9 @@ impl WallFilms {
     }
 }
 
-/// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m): on a wall, on the
-/// floor or on the lid, whichever comes first as the pressure falls. For equal angles 2 (cos θ - sin θ) over the smaller of width and depth; 0 if there is no
-/// film.
+/// (p_n - p_w)/σ in 1/m at which films meet in a throat of some width between two walls, with floor and lid at the distance `depth` (m)
+/// \[LenormandZarconeSarr1983\]: on a wall, on the floor or on the lid, whichever comes first as the pressure falls. For equal angles 2 (cos θ - sin θ) over
+/// the smaller of width and depth; 0 if there is no film.
 pub fn meeting(width: f64, depth: f64, walls: [&WallFilms; 2]) -> f64 {
     let on_walls = walls.map(|wall| wall.along_wall() / depth);
     let [one, other] = walls.map(WallFilms::along_plates);
@@ -83,6 +84,7 @@ mod tests {
         Corner::new(wall.to_radians(), plate.to_radians()).unwrap()
     }
 
+    /// [LenormandZarconeSarr1983]
     #[test]
     fn films_of_equal_angles_meet_in_the_narrower_gap() {
         for deg in [0.0_f64, 20.0, 44.0] {
@@ -96,6 +98,7 @@ mod tests {
         assert_eq!(meeting(1e-5, 1e-5, [&WallFilms::new(0.8, [0.8; 2]); 2]), 0.0);
     }
 
+    /// [Princen1969; Princen1970]
     #[test]
     fn arcs_of_unequal_angles_end_where_their_arms_do() {
         let corner = corner(20.0, 55.0);

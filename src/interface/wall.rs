@@ -30,8 +30,8 @@ pub(crate) fn is_edge_between(wall: &dyn Fn(Vec2) -> WallPoint, behind: Vec2, ah
     wall(behind).normal.dot(&wall(ahead).normal) < BENT
 }
 
-/// Normal of the wall at a point `x` (m) of it; if there is an edge within `reach` (m) to the left, looking into the pore, or else to the right, that of the
-/// face behind it.
+/// Normal of the wall at a point `x` (m) of it, or of the face behind an edge next to it \[Oliver1977\]. If there is an edge within `reach` (m) to the left,
+/// looking into the pore, or else to the right, that of the face behind it.
 pub(crate) fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach: f64) -> Vec2 {
     let normal = wall(x).normal;
     let along = if left { perpendicular(normal) } else { -perpendicular(normal) };
@@ -39,10 +39,8 @@ pub(crate) fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool,
     if there.dot(&along) > TURNED { there } else { normal }
 }
 
-/// The parts of `lines` in the pore, ending on the wall.
-///
-/// Contour a field that extends a spacing or two into the solid and clip it here: a field that is missing at the nodes of the solid breaks contours that meet
-/// the wall at a small angle into fragments.
+/// The parts of `lines` in the pore, ending on the wall. Contour a field that extends a spacing or two into the solid and clip it here: a field that is missing
+/// at the nodes of the solid breaks contours that meet the wall at a small angle into fragments.
 pub fn clip(lines: &[Polyline], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
     lines.iter().flat_map(|line| clip_line(line, wall)).collect()
 }

@@ -48,7 +48,7 @@ pub(crate) struct WeightedCircle {
 }
 
 impl WeightedCircle {
-    /// Weighted least squares through `near`, `None` for fewer than five points; `normal` is approximately that of the interface.
+    /// Weighted least squares through `near` \[Pratt1987\], `None` for fewer than five points. `normal` is approximately that of the interface.
     pub(crate) fn through(near: &[WeightedPoint], normal: Vec2) -> Option<Self> {
         if near.len() < FEWEST {
             return None;
@@ -71,7 +71,7 @@ impl WeightedCircle {
         (square > 0.0).then(|| self.k / square.sqrt())
     }
 
-    /// The point of the circle nearest to `x` (m) and the unit normal there, `None` at the center.
+    /// The point of the circle nearest to `x` (m) and the unit normal there, `None` at the center \[Pratt1987\].
     ///
     /// F = a + b u + k (u² + v²)/2 − v is quadratic, and on the line through x along ∇F it is F − t|∇F| + k t²/2.
     pub(crate) fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
@@ -100,7 +100,7 @@ pub(crate) struct WallFrame {
     pub(crate) normal: Vec2,
 }
 
-/// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
+/// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too \[Pratt1987\].
 ///
 /// `contact` in m relative to the origin of `near`. With the right contact point, the circle v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² +
 /// v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and 180 degrees the circle is tangent to the wall: a shift δ along the wall changes v
@@ -140,8 +140,8 @@ pub(crate) fn fit_from_contact(
     found.map(|kappa| (kappa, delta))
 }
 
-/// Angle in rad at which the circle through `anchor` (m, relative to the origin of `near`) meets the wall with the normal `wall`; `normal` is approximately
-/// that of the interface.
+/// Angle in rad at which the circle through `anchor` (m, relative to the origin of `near`) meets the wall with the normal `wall` \[Dussan1979\]. `normal` is
+/// approximately that of the interface.
 ///
 /// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²). `None` if the points do not determine it.
 pub(crate) fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {

@@ -22,8 +22,7 @@ pub(crate) struct FilmTerms {
 }
 
 impl FilmTerms {
-    /// For each throat the curvature in the plane (1/m, positive if it bulges into the non-wetting phase) at which its films meet; infinite
-    /// without films.
+    /// For each throat the curvature in the plane (1/m, positive if it bulges into the non-wetting phase) at which its films meet; infinite without films.
     pub(crate) fn meeting(&self, network: &Network) -> Vec<f64> {
         let throat = |throat: &Throat| {
             let walls = throat.shapes.map(|shape| &self.walls[shape as usize]);

@@ -9,7 +9,7 @@ use crate::sph::parallel::values;
 use crate::sph::terms::density;
 use crate::sph::view::View;
 
-/// Volumes and densities [Huber2013, Eq. 17], viscosities and wall distances.
+/// Volumes and densities ([`density::volume`]), viscosities and wall distances.
 #[derive(Debug, Clone, Default)]
 pub struct BulkFields {
     /// Volume V_a in m²; on walls V_0 of the lattice.

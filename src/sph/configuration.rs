@@ -42,7 +42,7 @@ impl Configuration {
         self.method.gravity.component_mul(&Vec2::new(x, y))
     }
 
-    /// Curvature in 1/m of the wall nearest to `x` (m), from the rotation of its normal; positive where the solid is convex, 0 at edges.
+    /// Curvature in 1/m of the wall nearest to `x` (m), for no slip [Morris1997, Eq. 28], by its normals. Positive where the solid is convex, 0 at edges.
     pub(crate) fn curvature_of_wall(&self, x: Vec2) -> f64 {
         let (distance, normal) = (self.wall)(x);
         let (inside, along) = (x - distance * normal, perpendicular(normal));

@@ -105,7 +105,7 @@ pub struct Tolerance {
     pub iterations: usize,
 }
 
-/// Solves M x = b, starting from the given x, until |b − M x| is within the tolerance.
+/// Solves M x = b by flexible conjugate gradients \[Notay2000\], starting from the given x, until the residual b − M x is within the tolerance.
 ///
 /// `b` must be in the range of M: for the pressure, zero sum over each component without a fixed value. `precondition(r, z)` sets z ≈ M⁻¹ r.
 /// The iteration stops early where rounding allows no smaller residual.

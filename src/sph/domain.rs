@@ -26,7 +26,7 @@ pub enum ImageVelocity {
 }
 
 impl Mirror {
-    /// The velocity of the image of a particle with velocity `v`.
+    /// The velocity of the image of a particle with velocity `v` [Huber2013, Eq. 34].
     pub(crate) fn velocity(&self, v: Vec2) -> Vec2 {
         match self.image {
             ImageVelocity::Reversed => -v,

@@ -8,8 +8,8 @@ use crate::sph::terms::curvature;
 use crate::sph::wetting::contact_line::MeanLine;
 use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
 
-/// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] on the fluid particles in N/m³, with the curvature and the normal
-/// of the jump; with the continuum surface force, its own volume forces.
+/// σκn and the line force of the paper on the fluid particles in N/m³, with the curvature and the normal of the jump; with the continuum surface force, its
+/// own volume forces.
 pub fn volume_forces(flow: &Flow) -> [Vec<Vec2>; 2] {
     let (f, h, fluids) = (&flow.fields.interface, flow.config.method.kernel.h, flow.state.particles.fluids);
     if let SurfaceForce::Continuum { surface, line } = &f.force {

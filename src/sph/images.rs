@@ -20,9 +20,8 @@ pub struct Images {
 }
 
 impl Images {
-    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points`.
-    ///
-    /// Corner images are images of images, so that a particle near two mirrors has three.
+    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points` [Huber2013, Eqs. 32-34]. Corner images are images of
+    /// images, so that a particle near two mirrors has three.
     pub fn append(points: &mut Vec<Vec2>, domain: &Domain, support: f64) -> Self {
         let first = points.len();
         let mut images = Self { first, mirrors: domain.mirrors.clone(), ..Self::default() };
@@ -79,7 +78,7 @@ impl Images {
         self.field_by(values, Mirror::reflect)
     }
 
-    /// The field of velocities: v' = −v on no-slip sides [Huber2013, Eq. 34].
+    /// The field of velocities: v' = −v on no-slip sides ([`Mirror::velocity`]).
     pub fn velocity_field(&self, values: Vec<Vec2>) -> Field<Vec2> {
         self.field_by(values, Mirror::velocity)
     }
@@ -107,6 +106,7 @@ mod tests {
     use crate::math::Bounds;
     use crate::sph::domain::ImageVelocity;
 
+    /// [Huber2013, Eqs. 32-34]
     #[test]
     fn a_particle_in_a_corner_of_two_mirrors_has_three_images() {
         let mirror = |axis, image| Mirror { axis, at: 0.0, image };

@@ -95,9 +95,8 @@ struct Move {
 }
 
 impl Packing<'_> {
-    /// Packs the particles at `fluid` (m); reports the completed fraction of the rounds to `done`.
-    ///
-    /// Those farther than 24 spacings from all disturbances of the lattice remain where they are.
+    /// Packs the particles at `fluid` (m) by shifting \[Lind2012\]. Reports the completed fraction of the rounds to `done`. Those farther than 24 spacings from
+    /// all disturbances of the lattice remain where they are.
     pub(crate) fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
         let moves = self.order(&self.round(fluid, self.fixed), fluid.len());
         let disturbed =

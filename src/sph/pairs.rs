@@ -12,7 +12,7 @@ use crate::sph::domain::Domain;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::parallel::{GRAIN, values};
 
-/// ζ over h [Huber2013, Eq. 16]: keeps the denominators of the Laplacians above zero.
+/// ζ over h, in [`Viscous`](crate::sph::terms::viscosity::Viscous): keeps the denominators of the Laplacians above zero.
 const ZETA: f64 = 0.01;
 
 /// A neighbor b of a particle a.

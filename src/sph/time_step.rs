@@ -8,8 +8,7 @@ use crate::sph::method::Method;
 /// Courant number on the smoothing length, without surface tension. It bounds the error of particle trajectories.
 const COURANT: f64 = 0.125;
 
-/// Courant number with surface tension, where the measures of the gallery do not differ between the two values (docs/numerics/forces.md,
-/// "Limit by velocity").
+/// Courant number with surface tension, where the measures of the gallery do not differ between the two values (docs/numerics/forces.md, "Limit by velocity").
 const COURANT_WITH_TENSION: f64 = 0.25;
 
 /// Largest Courant number for any factor on the step: with the overshoot below, displacements remain under the limit that ends a run.
@@ -77,7 +76,7 @@ impl Method {
         self.inviscid_time_step(speed).tighter(self.numerics.time_step_factor * over_rate / viscous_rate, "viscosity")
     }
 
-    /// [`Self::time_step`] without the viscous limit.
+    /// The limit of the step by velocity and capillary waves \[Brackbill1992\]. [`Self::time_step`] adds the viscous limit.
     pub(crate) fn inviscid_time_step(&self, speed: f64) -> TimeStep {
         let f = self.numerics.time_step_factor;
         let capillary = match self.numerics.viscous_step {
@@ -172,6 +171,7 @@ pub(crate) fn landing(step: TimeStep, time: f64, until: f64) -> TimeStep {
 mod tests {
     use super::*;
 
+    /// [Huber2013, Eq. 27]
     #[test]
     fn steps_land_on_the_record_without_a_sliver() {
         let (mut time, until) = (0.0, 1.0);

@@ -9,7 +9,7 @@
 use super::sparse::Factors;
 
 /// Newton's method stops below this norm of the residual or of a change: √∫ r² over the wall, in scaled heights. The paper takes 1e-9 of the plain 2-norm
-/// over the nodes, which rounding makes unattainable on fine grids [Pang2022, Sect. 6].
+/// over the nodes, which rounding makes unattainable on fine grids (Pang and Ó Náraigh 2022, section 6).
 pub(crate) const RESIDUAL: f64 = 1.0e-9;
 /// A step with more factorizations than this is too large; normally 1 or 2 suffice.
 pub(crate) const FACTORS: u32 = 12;

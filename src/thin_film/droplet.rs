@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::case::film::FilmWeights;
 
-/// A parabolic droplet.
+/// A parabolic droplet [Pang2022, Eq. 56].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Droplet {
     /// Cross-section ∫ h dx.

@@ -31,7 +31,7 @@ const XI_RANGE: (f64, f64) = (0.05, 60.0);
 const SEARCH_STEP: f64 = 1.01;
 
 impl Equilibrium {
-    /// The equilibrium with the wave number `xi`.
+    /// The equilibrium with the wave number `xi` [Pang2022, Sect. 5].
     pub(crate) fn of_wave_number(alpha: f64, area: f64, xi: f64) -> Self {
         let s = alpha * xi;
         let radius = (PI - 2.0 * s.atan()) / xi;
@@ -114,6 +114,7 @@ mod tests {
     use super::super::kernel::{Kernel, Order};
     use super::*;
 
+    /// [Pang2022, Sect. 5]
     #[test]
     fn a_unit_slope_gives_the_table_of_wetting_parameters() {
         // alpha, chi, r, xi, B1, B2, overlap, foot; evaluated from the closed form with 30 digits, printed to 10.

@@ -27,7 +27,7 @@ struct Term {
     odd: bool,
 }
 
-/// Φ on the infinite line.
+/// The smoothing kernel Φ on the infinite line [Pang2022, Eq. 41].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kernel {
     alpha: f64,
@@ -103,6 +103,7 @@ mod tests {
         (0..=n).map(|i| weight(i) * f(from + i as f64 * h)).sum::<f64>() * h / 3.0
     }
 
+    /// [Pang2022, Eq. 41]
     #[test]
     fn phi_is_the_helmholtz_kernel_smoothed_by_itself() {
         let kernel = Kernel::new(ALPHA);

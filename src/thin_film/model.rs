@@ -32,7 +32,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// Disjoining pressure and its derivative.
+    /// Disjoining pressure of a precursor film and its derivative \[Schwartz1998\].
     pub(super) fn disjoining(self, h: f64) -> (f64, f64) {
         match self {
             Self::Precursor { film, slope, .. } if slope > 0.0 => {
@@ -65,7 +65,7 @@ impl Model {
         }
     }
 
-    /// The mobility on a face between cells of heights a and b and sharp heights g and h, with its four derivatives.
+    /// The mobility on a face between cells of heights a and b and sharp heights g and h, with its four derivatives [Pang2022, Eqs. 16, 40].
     pub(super) fn mobility(self, [a, b]: [f64; 2], [g, h]: [f64; 2]) -> (f64, [f64; 2], [f64; 2]) {
         match self {
             Self::Geometric { .. } => {
@@ -81,7 +81,7 @@ impl Model {
     }
 }
 
-/// 2a²b²/(a + b) and its derivatives.
+/// The factor h³ of the mobility on a face, 2a²b²/(a + b), and its derivatives \[Zhornitskaya2000\].
 fn cubic(a: f64, b: f64) -> (f64, [f64; 2]) {
     let sum = a + b;
     let value = 2.0 * (a * b).powi(2) / sum;

@@ -156,6 +156,7 @@ impl Integrator {
         room
     }
 
+    /// A step of the explicit method of order 5(4), with its error over the tolerance \[Dormand1980\].
     fn explicit(&mut self, system: &mut impl Rates, dt: f64) -> Option<(Vec<f64>, f64)> {
         let mut k = self.room(7);
         let mut x = self.x.clone();
@@ -178,6 +179,7 @@ impl Integrator {
         inside.then_some((x, norm))
     }
 
+    /// A step of RODAS, a linearly implicit method of order 4(3), with its error over the tolerance \[Hairer1996\].
     fn stiff<S: Implicit>(&mut self, system: &mut S, dt: f64) -> Option<(Vec<f64>, f64)> {
         let mut matrix = system.factor(&self.x, 1.0 / (RODAS_GAMMA * dt))?;
         self.work.factors += 1;
@@ -303,6 +305,7 @@ mod tests {
         integrator.x[0].hypot(integrator.x[1] - 1.0)
     }
 
+    /// [Dormand1980; Hairer1996]
     #[test]
     fn the_methods_have_the_orders_of_their_names() {
         for (method, order) in [(FilmIntegrator::Explicit, 5.0), (FilmIntegrator::Stiff, 4.0)] {

@@ -154,6 +154,7 @@ pub(crate) fn widest_gap(x: &[f64]) -> f64 {
 }
 
 impl Rates for ParticleMethod {
+    /// ẋᵢ = h̄ᵢ² (h̄ₓₓₓ,ᵢ + (ξ² − Bo) h̄ₓ,ᵢ) of each particle [Pang2022, Sect. 3].
     fn rates(&mut self, x: &[f64], out: &mut [f64]) {
         self.smooth(x);
         let pull = self.xi_squared() - self.pull.bond;

@@ -28,7 +28,7 @@ pub struct Foot {
 }
 
 impl Profile {
-    /// The foot on the right: y* = argmax(−h̄ₓ) over x > `from`, contact line y* + h̄/|h̄ₓ| [Pang2022, Sect. 4].
+    /// The contact line on the right by the tangent at the steepest point, y* = argmax(−h̄ₓ) over x > `from` [Pang2022, Sect. 4]. It is y* + h̄/|h̄ₓ|.
     ///
     /// The paper's text names the maximum of h̄, where the tangent is horizontal; the steepest point is meant. The position is stationary in y*, so that a
     /// parabola through three slopes gives it with an error of fourth order in their spacing.
@@ -79,6 +79,7 @@ pub fn exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
 mod tests {
     use super::*;
 
+    /// [Pang2022, Sect. 4]
     #[test]
     fn the_foot_of_a_cosine_is_one_quarter_wave_and_one_slope_away() {
         let x: Vec<f64> = (-200..=200).map(|i| 0.01 * f64::from(i) + 0.003).collect();

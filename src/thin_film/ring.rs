@@ -34,7 +34,7 @@ pub struct Line {
     pub bond: f64,
 }
 
-/// The nodes and the equation.
+/// The nodes and the equation of the implicit finite-difference method [Pang2022, Eqs. 76-83].
 #[derive(Debug, Clone)]
 pub struct Ring {
     line: Line,
@@ -253,6 +253,7 @@ fn around(row: usize, reach: usize, count: usize) -> impl Iterator<Item = (usize
 mod tests {
     use super::*;
 
+    /// [Pang2022, Eqs. 76-83]
     #[test]
     fn newton_steps_use_the_jacobian_of_the_residual() {
         let line = Line { from: -1.0, count: 80, spacing: 0.025, alpha: 0.05, wetting: 1.16, bond: 3.0 };

@@ -62,7 +62,8 @@ impl Implicit for Shooting {
     }
 }
 
-/// f at the ascending positions `eta` for f(0) and f''(0); the list ends where the integration fails near the wall.
+/// The self-similar shape f at the ascending positions `eta` for f(0) and f''(0) [Pang2022, Eqs. 12-14]. The list ends where the integration fails near the
+/// wall.
 pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     let tolerance = Tolerance { absolute: TOLERANCE * height, relative: TOLERANCE };
     let start = vec![0.0, height, 0.0, curvature];
@@ -127,6 +128,7 @@ fn least(function: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// [Pang2022, Eqs. 12-14]
     #[test]
     fn a_shot_solves_its_equation() {
         let step = 0.005;

@@ -64,7 +64,7 @@ impl Factors {
     }
 }
 
-/// The recursion with its work space, reused in each step.
+/// The recursion for the sums of the kernel over particles [Pang2022, Sect. 3], with its work space, reused in each step.
 #[derive(Debug, Clone)]
 pub struct FastSums {
     kernel: Kernel,
@@ -175,6 +175,7 @@ mod tests {
         a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
     }
 
+    /// [Pang2022, Sect. 3]
     #[test]
     fn the_recursion_agrees_with_the_direct_sums() {
         for (count, half, alpha) in

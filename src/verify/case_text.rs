@@ -191,8 +191,7 @@ impl Steps {
     }
 }
 
-/// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci jump. `None` if there are no
-/// menisci below the event.
+/// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci jump. `None` if there are no menisci below the event.
 pub(crate) fn pore(subdomain: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
     let (width, tension, frame) = (subdomain.width, fluids.tension, &subdomain.frame);
     let spacing = subdomain.narrowest / f64::from(named.across);

@@ -51,8 +51,7 @@ pub(crate) fn mirrored(curve: &Curve, axis: usize) -> Curve {
     }
 }
 
-/// A wall of a throat in the orientation of the upper one: its curves on both sides of the chord, each side in order away from it and with
-/// x increasing.
+/// A wall of a throat in the orientation of the upper one: its curves on both sides of the chord, each side in order away from it and with x increasing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct UpperWall {
     /// Behind the chord, mirrored, and ahead of it.

@@ -15,7 +15,7 @@ law! {
 }
 
 impl WettingModel for Bracke {
-    /// Dynamic angle θ_d in rad \[Bracke1989\].
+    /// Dynamic angle θ_d in rad by the fit of tapes drawn into liquids \[Bracke1989\].
     fn angle(&self, line: &LineState) -> f64 {
         line.angle_by_change_of_cosine(self.static_angle(), 2.0 * line.capillary_number().abs().sqrt())
     }
@@ -29,6 +29,7 @@ impl WettingModel for Bracke {
 mod tests {
     use super::*;
 
+    /// [Bracke1989]
     #[test]
     fn the_cosine_of_a_liquid_that_wets_completely_is_1_less_4_roots_of_the_capillary_number() {
         let model = Bracke { contact_angle_deg: 0.0 };

@@ -29,7 +29,7 @@ law! {
 }
 
 impl WettingModel for Cox {
-    /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d; 0 or π where there is no solution, as the line then deposits a film.
+    /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d \[Cox1986\]. 0 or π where there is no solution, as the line then deposits a film.
     fn angle(&self, line: &LineState) -> f64 {
         let static_angle = self.static_angle();
         let decades = (line.slip_length / self.slip_length).ln().max(0.0);
@@ -100,6 +100,7 @@ mod tests {
         LineState { present: 0.0, speed, tension: 1.0, viscosity: 1.0, other_viscosity: q, length: 1.0, slip_length }
     }
 
+    /// [Cox1986]
     #[test]
     fn beside_a_gas_small_angles_follow_the_law_of_voinov() {
         let model = Cox { contact_angle_deg: 40.0, slip_length: 1e-3 };
@@ -110,6 +111,7 @@ mod tests {
         }
     }
 
+    /// [Cox1986]
     #[test]
     fn the_same_line_told_through_the_other_phase_has_the_other_angle() {
         for (degrees, q, speed) in [(60.0, 0.3, 0.02), (90.0, 1.0, -0.02), (130.0, 5.0, 0.004)] {
@@ -121,6 +123,7 @@ mod tests {
         }
     }
 
+    /// [Cox1986]
     #[test]
     fn equal_fluids_bend_at_a_right_angle_by_the_closed_value() {
         // f(π/2, 1) = 2π/(π²/4 − 1).

@@ -20,7 +20,7 @@ law! {
 }
 
 impl WettingModel for CoxVoinov {
-    /// Dynamic angle θ_d in rad at the distance `line.length` from the line [Cox1986, Eq. 8.3 for small angles].
+    /// Dynamic angle θ_d in rad by viscous bending up to the distance `line.length`, for small angles [Voinov1976; Cox1986, Eq. 8.3].
     fn angle(&self, line: &LineState) -> f64 {
         let decades = (line.length / self.slip_length).ln().max(0.0);
         let cube = self.static_angle().powi(3) + 9.0 * line.capillary_number() * decades;
@@ -36,6 +36,7 @@ impl WettingModel for CoxVoinov {
 mod tests {
     use super::*;
 
+    /// [Voinov1976; Cox1986, Eq. 8.3]
     #[test]
     fn angles_for_a_logarithm_of_ten_are_the_published_ones() {
         let length = 1.0e-4;

@@ -19,13 +19,13 @@ law! {
 }
 
 impl WettingModel for Hysteresis {
-    /// The present angle clamped to the range.
+    /// The present angle clamped to the range of hysteresis \[Dussan1979\].
     fn angle(&self, line: &LineState) -> f64 {
         let [receding, advancing] = self.hysteresis_range();
         line.present.max(receding).min(advancing)
     }
 
-    /// The equilibrium angle that belongs to both bounds \[Tadmor2004\].
+    /// The equilibrium angle that belongs to both bounds ([`tadmor`]).
     fn static_angle(&self) -> f64 {
         let [receding, advancing] = self.hysteresis_range();
         tadmor(advancing, receding)

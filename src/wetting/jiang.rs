@@ -14,7 +14,7 @@ law! {
 }
 
 impl WettingModel for Jiang {
-    /// Dynamic angle θ_d in rad [Jiang1979, Eq. 7].
+    /// Dynamic angle θ_d in rad by the fit of Jiang, Oh and Slattery to Hoffman's curve [Jiang1979, Eq. 7].
     fn angle(&self, line: &LineState) -> f64 {
         let change = (4.96 * line.capillary_number().abs().powf(0.702)).tanh();
         line.angle_by_change_of_cosine(self.static_angle(), change)
@@ -29,6 +29,7 @@ impl WettingModel for Jiang {
 mod tests {
     use super::*;
 
+    /// [Jiang1979, Eq. 7]
     #[test]
     fn angles_are_the_published_ones() {
         let model = Jiang { contact_angle_deg: 46.8 };

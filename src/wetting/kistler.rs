@@ -19,7 +19,7 @@ law! {
 const LARGEST_ARGUMENT: f64 = 1.0e3;
 
 impl WettingModel for Kistler {
-    /// Dynamic angle θ_d in rad \[Kistler1993\].
+    /// Dynamic angle θ_d in rad by Kistler's fit of Hoffman's curve \[Kistler1993\].
     fn angle(&self, line: &LineState) -> f64 {
         hoffman((line.capillary_number() + shift(self.static_angle())).max(0.0))
     }
@@ -29,7 +29,7 @@ impl WettingModel for Kistler {
     }
 }
 
-/// f_H, increasing from 0 to π [Kistler1993].
+/// f_H, increasing from 0 to π.
 fn hoffman(x: f64) -> f64 {
     let inner = 5.16 * (x / (1.0 + 1.31 * x.powf(0.99))).powf(0.706);
     (1.0 - 2.0 * inner.tanh()).clamp(-1.0, 1.0).acos().min(PI)
@@ -50,6 +50,7 @@ fn shift(angle: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// [Kistler1993]
     #[test]
     fn angles_are_the_published_ones() {
         let model = Kistler { contact_angle_deg: 46.8 };

@@ -16,7 +16,7 @@ law! {
 }
 
 impl WettingModel for LineFriction {
-    /// Dynamic angle θ_d in rad \[BrochardWyart1992\].
+    /// Dynamic angle θ_d in rad by contact line friction \[BrochardWyart1992\].
     fn angle(&self, line: &LineState) -> f64 {
         (self.static_angle().cos() - self.friction * line.speed / line.tension).clamp(-1.0, 1.0).acos()
     }

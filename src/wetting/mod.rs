@@ -74,7 +74,7 @@ macro_rules! laws {
                 match self { $(Self::$law(law) => law.angle(line),)+ }
             }
 
-            /// The static contact angle in rad; with hysteresis the equilibrium angle between both bounds \[Tadmor2004\].
+            /// The static contact angle in rad; with hysteresis the equilibrium angle between both bounds (Tadmor 2004).
             pub fn static_angle(&self) -> f64 {
                 match self { $(Self::$law(law) => law.static_angle(),)+ }
             }

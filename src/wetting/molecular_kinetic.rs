@@ -33,7 +33,7 @@ law! {
 }
 
 impl WettingModel for MolecularKinetic {
-    /// Dynamic angle θ_d in rad \[Blake1969\].
+    /// Dynamic angle θ_d in rad by molecular kinetic theory \[Blake1969\].
     fn angle(&self, line: &LineState) -> f64 {
         let work = 2.0 * BOLTZMANN * kelvin(self.temperature_c) / (line.tension * self.jump_length.powi(2));
         let jumps = line.speed / (2.0 * self.frequency * self.jump_length);
@@ -55,6 +55,7 @@ mod tests {
     use super::*;
     use crate::wetting::LineFriction;
 
+    /// [Blake1969]
     #[test]
     fn a_slow_line_feels_a_friction_in_proportion_to_its_speed() {
         let model =

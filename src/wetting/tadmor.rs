@@ -21,7 +21,7 @@ impl WettingModel for Tadmor {
         self.static_angle()
     }
 
-    /// The equilibrium angle \[Tadmor2004\].
+    /// The equilibrium angle of [`tadmor`].
     fn static_angle(&self) -> f64 {
         tadmor(self.advancing_angle_deg.to_radians(), self.receding_angle_deg.to_radians())
     }
@@ -35,11 +35,9 @@ impl WettingModel for Tadmor {
     }
 }
 
-/// Equilibrium contact angle in rad from an advancing and a receding one (Tadmor 2004).
-///
-/// cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G = (sin³/(2 - 3 cos + cos³))^(1/3).
-///
-/// Evaluated with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0 gives an equilibrium angle of 0.
+/// Equilibrium contact angle in rad from an advancing and a receding one \[Tadmor2004\]. cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G =
+/// (sin³/(2 - 3 cos + cos³))^(1/3). Evaluated with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0
+/// gives an equilibrium angle of 0.
 pub(super) fn tadmor(advancing: f64, receding: f64) -> f64 {
     let inverse = |angle: f64| {
         let half = 0.5 * angle;
@@ -66,6 +64,7 @@ pub(super) fn order(receding: f64, advancing: f64) -> Option<Problem> {
 mod tests {
     use super::*;
 
+    /// [Tadmor2004]
     #[test]
     fn tadmor_gives_the_angles_of_the_alkanes() {
         // Advancing and receding angles of Lam et al. 2002 as printed in Table 1 of Huber et al. 2013.

@@ -56,6 +56,7 @@ fn every_model_has_its_static_angle_at_rest() {
     }
 }
 
+/// [BrochardWyart1992]
 #[test]
 fn no_model_has_a_smaller_angle_at_a_higher_speed_and_all_stay_between_0_and_180_degrees() {
     for model in models(57.3) {

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use crate::invariants::assert_distances;
 use crate::scenes::*;
 
+/// [Lieutier2004]
 #[test]
 fn a_hexagonal_array_has_the_pores_and_throats_of_its_triangles() {
     let (r, l) = (0.4, 1.0);
@@ -22,6 +23,7 @@ fn a_hexagonal_array_has_the_pores_and_throats_of_its_triangles() {
     }
 }
 
+/// [Lieutier2004]
 #[test]
 fn a_square_array_has_one_pore_with_four_contacts_and_two_throats_per_cell() {
     for center in [[0.5, 0.5], [0.0, 0.0], [0.2, 1.0]] {

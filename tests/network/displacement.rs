@@ -93,6 +93,7 @@ fn elements_tile_the_pore_space() {
     }
 }
 
+/// [WilkinsonWillemsen1983]
 #[test]
 fn every_filled_element_lies_beside_the_invading_phase_and_the_applied_pressure_never_falls() {
     for (seed, angle) in [(1, 30.0), (2, 90.0), (3, 120.0), (4, 165.0)] {
@@ -224,6 +225,7 @@ fn hexagonal(pitch: f64) -> GeometrySpec {
     }
 }
 
+/// [CieplakRobbins1988]
 #[test]
 fn menisci_that_have_met_around_a_disc_wait_as_one_until_they_touch_the_disc_ahead() {
     for pitch in [2.2, 2.4, 3.0] {

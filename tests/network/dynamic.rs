@@ -102,6 +102,7 @@ fn one_fluid_flows_as_the_permeability_of_the_network_says() {
     }
 }
 
+/// [Primkulov2019]
 #[test]
 fn at_vanishing_rate_the_same_pores_are_invaded_as_without_time() {
     for seed in 0..4 {
@@ -189,6 +190,7 @@ fn shorter_steps_leave_the_saturation_at_breakthrough() {
     assert!(4 * far <= changes.len(), "{changes:?}");
 }
 
+/// [Primkulov2019]
 #[test]
 fn areas_are_conserved_and_no_step_fails_over_ten_decades_of_rate() {
     for seed in 0..12 {

@@ -72,6 +72,7 @@ fn chambers(widths: &[f64], is_mirrored: bool) -> ([f64; 2], String) {
     (size, shapes)
 }
 
+/// [Princen1969; Princen1970]
 #[test]
 fn the_films_of_a_straight_duct_hold_four_corners() {
     let (width, depth) = (1e-4, 5e-5);
@@ -109,6 +110,7 @@ fn films_of_floor_and_lid_with_angles_of_their_own_hold_what_their_corners_do() 
     }
 }
 
+/// [LenormandZarconeSarr1983]
 #[test]
 fn a_throat_snaps_off_where_its_films_meet_and_what_is_behind_is_trapped() {
     let (deg, depth) = (10.0_f64, 1e-4);

@@ -42,6 +42,7 @@ fn mean_velocity(case: &str, end: f64) -> f64 {
     p.velocity[..p.fluids].iter().map(|v| v.x).sum::<f64>() / p.fluids as f64
 }
 
+/// [GondretRabaud1997]
 #[test]
 fn ducts_have_their_flow() {
     for ratio in [0.25, 1.0, 3.0] {
@@ -72,6 +73,7 @@ fn a_flat_drop_has_the_pressure_of_both_curvatures() {
     }
 }
 
+/// [ParkHomsy1984]
 #[test]
 fn a_flat_bubble_has_the_pressure_of_the_exact_surface_of_revolution() {
     // Radii of the contact line of 2 and 10 depths, as in studies/validation/flat-bubble.toml.

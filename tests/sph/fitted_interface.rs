@@ -125,6 +125,7 @@ fn the_particles_nearest_to_the_interface_stand_half_a_spacing_from_it() {
     }
 }
 
+/// [Lind2012]
 #[test]
 fn both_fluids_are_packed_evenly() {
     for (name, shape, sides, ..) in interfaces() {

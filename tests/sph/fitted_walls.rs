@@ -53,6 +53,7 @@ fn spread(errors: &[f64]) -> [f64; 3] {
     [mean, rms, errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()))]
 }
 
+/// [Lind2012]
 #[test]
 fn the_density_of_a_packed_pore_is_even() {
     for (name, shapes, sides) in PORES {

@@ -186,6 +186,7 @@ fn rate_error(flow: &mut Flow, count: usize, dt: f64) -> f64 {
     flow.state.given_flows.iter().map(|given| given.largest_error).fold(0.0, f64::max)
 }
 
+/// [PatankarLiuSparrow1977]
 #[test]
 fn a_given_flow_rate_holds_in_every_step_and_takes_the_pressure_of_a_parabola() {
     // The step is twice as long as viscosity allows explicitly, and 16 times that.
@@ -207,6 +208,7 @@ fn a_given_flow_rate_holds_in_every_step_and_takes_the_pressure_of_a_parabola() 
     }
 }
 
+/// [PatankarLiuSparrow1977]
 #[test]
 fn given_flows_along_both_axes_pass_an_obstacle_and_a_second_phase() {
     let text = channel(&format!(

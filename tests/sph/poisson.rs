@@ -45,6 +45,7 @@ fn difference(x: &[f64], y: &[f64]) -> f64 {
     squares(&mut x.iter().zip(y).map(|(x, y)| x - y)) / squares(&mut y.iter().copied())
 }
 
+/// [Huber2013, Eq. 30; Cummins1999]
 #[test]
 fn the_matrix_is_symmetric_with_row_sums_of_zero() {
     for ratio in [1.0, 10.0, 1000.0] {
@@ -64,6 +65,7 @@ fn the_matrix_is_symmetric_with_row_sums_of_zero() {
     }
 }
 
+/// [Notay2000]
 #[test]
 fn the_iteration_finds_the_solution_of_the_factorization() {
     for ratio in [1.0, 1000.0] {
@@ -106,6 +108,7 @@ fn small_systems_are_solved_directly() {
     assert!(difference(&p, &wanted) < 1e-10);
 }
 
+/// [Notay2010]
 #[test]
 fn the_number_of_iterations_hardly_grows_with_the_number_of_particles() {
     for ratio in [1.0, 1000.0] {

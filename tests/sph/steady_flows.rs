@@ -58,7 +58,7 @@ fn array(dice: &mut Dice) -> String {
     case(5e-5, 1e-3, &discs.join(", "), &format!("gravity = [{x:e}, {y:e}]\n{PERIODIC}"))
 }
 
-/// Issue: drag 48.8, 50.6 and 51.0 with 10, 20 and 100 records of one array, and a permeability off by 18 %.
+/// Issue: drag 48.8, 50.6 and 51.0 with 10, 20 and 100 records of one array, and a permeability off by 18 %. [Timmermans1996]
 #[test]
 fn a_steady_flow_past_obstacles_is_the_same_with_few_records_and_with_many() {
     let arrays = std::env::var("MENISCUS_STEADY").ok().and_then(|count| count.parse().ok()).unwrap_or(4);
@@ -77,6 +77,7 @@ fn a_steady_flow_past_obstacles_is_the_same_with_few_records_and_with_many() {
     }
 }
 
+/// [Timmermans1996]
 #[test]
 fn a_steady_profile_in_a_channel_is_the_same_with_few_records_and_with_many() {
     let channel = case(5e-5, 1e-3, "", "gravity = [0.01, 0.0]\nsides = { left = \"periodic\", right = \"periodic\" }");

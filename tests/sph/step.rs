@@ -26,6 +26,7 @@ fn shake(flow: &mut Flow) {
     flow.prepare();
 }
 
+/// [Huber2013, Eqs. 1-3]
 #[test]
 fn a_uniform_flow_of_one_fluid_stays_uniform() {
     let text = case(&format!(
@@ -115,6 +116,7 @@ fn drop(density: f64, velocity: [f64; 2], surface_force: &str) -> String {
     ))
 }
 
+/// [Huber2013, Eqs. 1-3; Skillen2013; Lind2012, Eq. 26]
 #[test]
 fn a_moving_observer_sees_the_same_flow() {
     const DT: f64 = 2.0e-6;
@@ -165,6 +167,7 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
     }
 }
 
+/// [Monaghan2000]
 #[test]
 fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
@@ -209,6 +212,7 @@ fn nearest(flow: &Flow, x: Vec2) -> usize {
     (0..flow.state.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
 }
 
+/// [Monaghan2000]
 #[test]
 fn pushes_part_a_crowded_row_across_the_interface() {
     // Two neighbors of the first row under the upper side of the drop come to 0.6 spacings, one a little higher.
@@ -234,6 +238,7 @@ fn pushes_part_a_crowded_row_across_the_interface() {
     assert!(by[0].y > 0.0 && by[1].y < 0.0, "the upper one is pushed by {:?} m, the lower one by {:?} m", by[0], by[1]);
 }
 
+/// [Skillen2013]
 #[test]
 fn particles_go_down_the_concentration_along_the_interface_only() {
     let flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));

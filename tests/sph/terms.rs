@@ -32,6 +32,7 @@ fn imbalance(cloud: &Cloud, density: &[f64], acceleration: &[Vec2]) -> f64 {
     sum.norm() / size
 }
 
+/// [Huber2013, Eq. 16; Morris1997, Eq. 22]
 #[test]
 fn viscosity_keeps_momentum_on_shaken_particles() {
     let cloud = Cloud::new(24, true, 0.3);
@@ -46,6 +47,7 @@ fn viscosity_keeps_momentum_on_shaken_particles() {
     assert!(imbalance(&cloud, &density, &viscous.szewc(&cloud.pairs, v_ab, n)) < ROUNDING);
 }
 
+/// [Morris1997, Eq. 22]
 #[test]
 fn viscosity_takes_energy_from_every_motion() {
     let cloud = Cloud::new(16, true, 0.3);
@@ -61,6 +63,7 @@ fn viscosity_takes_energy_from_every_motion() {
     }
 }
 
+/// [Huber2013, Eq. 15]
 #[test]
 fn the_symmetric_pressure_gradient_keeps_momentum_on_shaken_particles() {
     let cloud = Cloud::new(24, true, 0.3);
@@ -72,6 +75,7 @@ fn the_symmetric_pressure_gradient_keeps_momentum_on_shaken_particles() {
     assert!(imbalance(&cloud, &density, &acceleration) < ROUNDING);
 }
 
+/// [Huber2013, Eqs. 15, 31]
 #[test]
 fn divergence_and_pressure_gradient_of_linear_fields_are_exact_on_the_lattice() {
     let cloud = Cloud::new(24, false, 0.0);
@@ -252,6 +256,7 @@ impl Interface {
     }
 }
 
+/// [Huber2013, Eq. 18]
 #[test]
 fn the_normal_of_a_plane_interface_integrates_to_one() {
     let cloud = Cloud::new(24, true, 0.0);
@@ -264,6 +269,7 @@ fn the_normal_of_a_plane_interface_integrates_to_one() {
     assert!((integral - Vec2::new(-1.0, 0.0)).norm() < WEIGHTS, "{integral:?}");
 }
 
+/// [Huber2013, Eq. 19; Morris2000, Sect. 3.3]
 #[test]
 fn curvature_of_a_disc_is_one_over_its_radius() {
     const RADIUS: f64 = 0.25;
@@ -284,6 +290,7 @@ fn curvature_of_a_disc_is_one_over_its_radius() {
     assert!(errors[0] < 0.05 && errors[1] < 0.03, "{errors:?}");
 }
 
+/// [Huber2013, Eq. 20]
 #[test]
 fn the_surface_force_of_a_drop_sums_to_zero() {
     let cloud = Cloud::new(40, true, 0.0);
@@ -338,6 +345,7 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
     ([half(false), half(true)], lines.len())
 }
 
+/// [Huber2013, Eqs. 21-23]
 #[test]
 fn the_force_of_each_contact_line_sums_to_its_driving_force() {
     for degrees in [0.0_f64, 40.0, 120.0, 180.0] {

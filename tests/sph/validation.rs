@@ -44,7 +44,7 @@ const FAST_ROWS: [(&str, &[usize], &[&str]); 18] = [
     ("thin-film/filter-spreading", &[1, 2, 3], &["contact-line-position", "contact-line-exponent"]),
 ];
 
-/// Two percent, or the stored error bar if that is wider. Both allow for other rounding of another machine, no more.
+/// Two percent, or the stored error bar if that is wider. Both allow for other rounding of another machine, no more. [Navier1823]
 #[test]
 fn the_fast_rows_of_the_gallery_are_those_of_its_pages() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -127,6 +127,7 @@ fn the_angle_is_as_good_at_a_density_ratio_of_a_hundred() {
     assert!((found("contact-angle-deg") - 60.0).abs() < 1.5, "{}", found("contact-angle-deg"));
 }
 
+/// [Fedkiw1999; Kang2000]
 #[test]
 fn a_free_drop_has_the_pressure_of_laplace_and_rests() {
     let found = measures("laplace-drop.toml", &["sph.spacing=4.0e-5".to_owned()]);
@@ -135,7 +136,7 @@ fn a_free_drop_has_the_pressure_of_laplace_and_rests() {
     assert!(found("largest-density-error") < 0.01);
 }
 
-/// Moved with the mean of old and new velocity it would swing ever more: to a capillary number of 7e-4 by then.
+/// Moved with the mean of old and new velocity it would swing ever more: to a capillary number of 7e-4 by then. [Huber2013, Eq. 27]
 #[test]
 fn a_drop_of_a_thin_liquid_gains_no_energy() {
     let thin = [

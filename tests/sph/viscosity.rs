@@ -46,6 +46,7 @@ fn explicit_limit(flow: &Flow) -> f64 {
     1.0 / flow.view().viscous_rate()
 }
 
+/// [Liniger1970]
 #[test]
 fn a_channel_starts_as_with_the_explicit_form() {
     // Two layers of a fluid at rest, pushed along the walls, on which they slip, for a third of the time that they take to become steady.
@@ -73,6 +74,7 @@ fn a_channel_starts_as_with_the_explicit_form() {
     }
 }
 
+/// [Liniger1970]
 #[test]
 fn a_shear_wave_decays_by_the_factor_of_the_method() {
     let shear = |step: ViscousStep, dt: f64| {
@@ -174,6 +176,7 @@ fn pairs_on_the_edge_of_the_support_do_not_stop_the_viscous_step() {
     }
 }
 
+/// [Kan1986]
 #[test]
 fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
     let mean = |dt: f64| {
@@ -194,6 +197,7 @@ fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
     assert!((long / short - 1.0).abs() < 0.01, "{long} and {short}");
 }
 
+/// [Brackbill1992]
 #[test]
 fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
     // The corners of a square drop, and a lid that moves at once; the largest way of a step over h, from the page on forces.

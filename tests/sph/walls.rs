@@ -241,6 +241,7 @@ fn a_patch_changes_the_angle_of_its_wall_alone() {
     }
 }
 
+/// [Huh1971]
 #[test]
 fn walls_slip_by_a_spacing_near_contact_lines_and_not_elsewhere() {
     let place = ([0.0, -5.0e-4], [5.0e-4, 7.0e-4]);

@@ -88,6 +88,7 @@ fn assert_same(folder: &Path, file: &str, folders: [&str; 2]) {
     assert!(a == b, "{file} of {folders:?}: {different:?}");
 }
 
+/// [SaltelliEtAl2010; Jansen1999]
 #[test]
 fn sobol_indices_of_a_throat_are_those_of_its_formula() {
     // p = 2 σ cos(θ - 10°)/w with w = 8e-5 m - 2 d: the meniscus waits at the corners until it has its angle with the walls behind them. Blocks that
@@ -149,6 +150,7 @@ measures = ["largest-entry-pressure-Pa"]
     }
 }
 
+/// [HyndmanFan1996]
 #[test]
 fn the_band_of_90_percent_holds_90_percent_of_other_draws() {
     let folder = folder_with(PACK, &UNCERTAIN.replace("count = 64", "count = 512"));

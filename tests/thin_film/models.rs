@@ -96,6 +96,7 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
     }
 }
 
+/// [Zhornitskaya2000]
 #[test]
 fn films_in_cells_have_second_order() {
     let at = |symmetry, model, count| {
@@ -137,6 +138,7 @@ fn droplets_in_the_plane_and_about_an_axis_spread_by_tanner_s_law() {
     }
 }
 
+/// [Pang2022, Eq. 40; Pang2022, Eqs. 76-83]
 #[test]
 fn cells_and_the_paper_s_differences_solve_the_same_equation() {
     let mut cells = film(half(FilmSymmetry::Plane, GEOMETRIC, 2.0, 400, 0.0), DROPLET, RULE);
@@ -204,6 +206,7 @@ fn wall_energy(film: f64, h: f64) -> f64 {
     0.5 * ratio * ratio - ratio
 }
 
+/// [Schwartz1998]
 #[test]
 fn a_droplet_on_a_precursor_film_rests_at_its_angle() {
     // At rest hₓₓ + Π = −p, so that ½hₓ² = W(h) − W(f) − p (h − f), with f the height of the film beside the droplet.

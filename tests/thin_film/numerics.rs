@@ -60,6 +60,7 @@ fn near(found: f64, known: f64, tolerance: f64) {
     assert!((found - known).abs() < tolerance, "found {found}, known {known}");
 }
 
+/// [Pang2022, Sect. 3]
 #[test]
 fn a_completely_wetting_droplet_of_particles_reaches_the_known_state() {
     // 800 nodes on [-2, 2], t = 50; the known values are from DOPRI5 of another program, good to its tolerance.
@@ -96,6 +97,7 @@ fn taking_off_the_lattice_energy_brings_particles_near_the_limit_of_fine_spacing
     near(end.profile(2.0, 6400).foot(0.0).unwrap().position, 1.240_38, 1.0e-4);
 }
 
+/// [Pang2022, Eqs. 76-83]
 #[test]
 fn finite_differences_reach_the_known_state_and_keep_the_mass() {
     let mut film = grid(COMPLETE, 1.0, 400, 0.0, StepRule::fixed(0.01));

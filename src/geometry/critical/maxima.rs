@@ -28,7 +28,7 @@ const HALF_CIRCLE: f64 = 2.0 * TIE;
 const NEWTON_STEPS: usize = 40;
 const EXCHANGES: usize = 12;
 
-/// The maximum near a candidate.
+/// The maximum of the wall distance near a candidate \[Lieutier2004\].
 pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     let mut of = triple.walls;
     let mut x = triple.start;

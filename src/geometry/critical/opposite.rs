@@ -73,7 +73,7 @@ pub(crate) fn slack(walls: &Walls, d: f64) -> f64 {
     SAME_DISTANCE * d + ROUNDING * walls.tolerance
 }
 
-/// The opposite points of a pair of pieces; for pieces at a constant distance, those next to the point of the pair.
+/// Opposite points of a pair of pieces, saddles of the wall distance \[Lieutier2004\]. For pieces at a constant distance, those next to the point of the pair.
 pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) -> Vec<Opposite> {
     let curves = [walls.curve(pair.walls[0], [0, 0]), walls.curve(pair.walls[1], pair.shift)];
     let mut found = Vec::new();

@@ -1,9 +1,8 @@
 //! Smooth walls behind polygons: runs of vertices with small angles become arcs through these vertices, real corners stay.
 //!
-//! A drawing program samples curves; a polygon has a corner at each sample, which pins menisci, unlike a curved wall. A vertex is smooth if its angle is
-//! below a threshold, in a run of at least three. The tangent of the wall there is that of the circle through the vertex and its neighbors, and between two
-//! vertices there is a biarc: two arcs with a common tangent. An edge much longer than its neighbors is a straight wall and stays one. Arcs of one circle are
-//! joined.
+//! A drawing program samples curves; a polygon has a corner at each sample, which pins menisci, unlike a curved wall. A vertex is smooth if its angle is below
+//! a threshold, in a run of at least three. The tangent of the wall there is that of the circle through the vertex and its neighbors, and between two vertices
+//! there is a biarc: two arcs with a common tangent. An edge much longer than its neighbors is a straight wall and stays one. Arcs of one circle are joined.
 
 use crate::geometry::curve::cross;
 use crate::geometry::import::drawing::Ring;

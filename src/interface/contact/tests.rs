@@ -65,6 +65,7 @@ fn a_drop_on_a_disc_has_its_angle() {
     }
 }
 
+/// [Oliver1977]
 #[test]
 fn a_drop_that_ends_at_the_edges_of_a_pillar_has_its_angle_to_the_face_below_it() {
     // The pillar |x| < 0.7, y < 0, with a cap over the whole of its top.

@@ -6,9 +6,9 @@
 use crate::interface::menisci::meniscus::Meniscus;
 use crate::interface::menisci::passage::Passage;
 
-/// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a common wall: the left wall of `a`, beyond its chord, is the
-/// right wall of `b` traversed in the opposite direction. `shared` is the length of that wall between both chords in m. Both passages use the same
-/// coordinates.
+/// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a common wall \[CieplakRobbins1988\]. The left wall of `a`,
+/// beyond its chord, is the right wall of `b` traversed in the opposite direction. `shared` is the length of that wall between both chords in m. Both passages
+/// use the same coordinates.
 pub(crate) fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64> {
     let (from_a, from_b) = (a.lowest()?.curvature, b.lowest()?.curvature);
     let low = from_a.max(from_b);

@@ -58,7 +58,7 @@ impl Passage {
         &self.right
     }
 
-    /// The meniscus of the largest curvature in the throat: beyond it the throat is passed. It may lie at the end of a wall.
+    /// The meniscus of the largest curvature in the throat: beyond it the throat is passed \[CieplakRobbins1988\]. It may lie at the end of a wall.
     pub fn burst(&self) -> Option<Meniscus> {
         self.highest.map(|station| self.meniscus(&station))
     }
@@ -82,7 +82,8 @@ impl Passage {
         Some(self.meniscus(&self.walls.on_leg(rise, k)))
     }
 
-    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall. Independent of the contact angle there.
+    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall \[CieplakRobbins1988\]. Independent of the contact angle
+    /// there.
     pub(crate) fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
         let up_to = up_to * self.scale;
         let lowest = self.lowest.filter(|lowest| lowest.curvature <= up_to)?;

@@ -136,6 +136,7 @@ impl Piece {
         }
     }
 
+    /// Whether this piece is an edge, where the contact line is pinned \[Oliver1977\].
     pub(crate) fn is_edge(&self) -> bool {
         self.length == 0.0
     }

@@ -5,8 +5,7 @@ use crate::case::network::{Events, Trapping};
 /// Conditions of a displacement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conditions {
-    /// Contact angle in rad through the defending phase, one for each written shape and then for the walls at the left, right, bottom
-    /// and top side.
+    /// Contact angle in rad through the defending phase, one for each written shape and then for the walls at the left, right, bottom and top side.
     pub angle: Vec<f64>,
     /// Sides through which the invading phase enters: left, right, bottom, top.
     pub inlet: [bool; 4],
@@ -34,8 +33,7 @@ pub enum CornerFilms {
     Drain,
     /// The invading phase enters through them: all of it is connected, and it closes throats where films meet.
     Join {
-        /// For each throat of the network the curvature in the plane (1/m, positive into the defending phase) at which its films meet;
-        /// infinite if they do not.
+        /// For each throat of the network the curvature in the plane (1/m, positive into the defending phase) at which its films meet; infinite if they do not.
         meeting: Vec<f64>,
     },
 }

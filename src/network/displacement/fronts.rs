@@ -136,8 +136,8 @@ impl Displacement {
         None
     }
 
-    /// Curvature in 1/m of the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both. Within one
-    /// element it advances at once.
+    /// Curvature in 1/m of the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both \[CieplakRobbins1988\]. Within
+    /// one element it advances at once.
     pub(super) fn joined_event(&self, mesh: &Mesh, front: (usize, usize), hand: Hand, neighbor: &Neighbor) -> f64 {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;

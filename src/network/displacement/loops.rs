@@ -1,9 +1,8 @@
 //! Closed loops of walls and gates, and the division of loops between more than three walls.
 //!
-//! A meniscus that advances through a gate moves along two walls and may touch a third one. For each such event to have its own element, a
-//! pore region with more than three stretches of wall on its loop is divided by the shortest segments from wall to wall inside it (for
-//! discs mostly the Delaunay edges of neighbors without a throat), until each part has three stretches of wall or no segment is left. The
-//! parts tile the region.
+//! A meniscus that advances through a gate moves along two walls and may touch a third one. For each such event to have its own element, a pore region with
+//! more than three stretches of wall on its loop is divided by the shortest segments from wall to wall inside it (for discs mostly the Delaunay edges of
+//! neighbors without a throat), until each part has three stretches of wall or no segment is left. The parts tile the region.
 
 use crate::geometry::closest::closest_points as closest;
 use crate::geometry::curve::{ClosestPoint, Curve, cross};

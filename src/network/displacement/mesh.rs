@@ -1,8 +1,7 @@
 //! Elements, the units of filling, and gates between them.
 //!
-//! With touches and overlaps, an element is a part of a pore region between at most three walls if such a division exists (`loops`), and
-//! each throat and each dividing segment is a gate. With bursts alone, an element is a pore of the network with its merged regions, and
-//! only the remaining throats are gates.
+//! With touches and overlaps, an element is a part of a pore region between at most three walls if such a division exists (`loops`), and each throat and each
+//! dividing segment is a gate. With bursts alone, an element is a pore of the network with its merged regions, and only the remaining throats are gates.
 
 use super::dead_ends::cut_dead_ends;
 use super::loops::{Crossing, GateId, Loop, divide};

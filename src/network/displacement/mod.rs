@@ -1,11 +1,10 @@
 //! Quasi-static displacement of one phase by another at rising applied pressure: the elements filled by each event.
 //!
-//! A meniscus advances through its gate until one of three events \[CieplakRobbins1988; CieplakRobbins1990\]: it passes its largest
-//! curvature (burst), touches a wall ahead (touch), or meets the meniscus in the neighboring gate on the wall between them (overlap). The
-//! event of the lowest curvature comes first. Events of equal curvature are simultaneous: all fill before trapping and new menisci are
-//! determined. An event fills the whole element ahead. Two menisci that meet merge into one between their outer walls: within one element
-//! they fill it; if a grain ahead separates several elements, the merged meniscus fills all of them when it bursts or touches. Pressures
-//! are given as curvatures, (p_invading − p_defending)/σ.
+//! A meniscus advances through its gate until one of three events \[CieplakRobbins1988; CieplakRobbins1990\]: it passes its largest curvature (burst), touches
+//! a wall ahead (touch), or meets the meniscus in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first.
+//! Events of equal curvature are simultaneous: all fill before trapping and new menisci are determined. An event fills the whole element ahead. Two menisci
+//! that meet merge into one between their outer walls: within one element they fill it; if a grain ahead separates several elements, the merged meniscus fills
+//! all of them when it bursts or touches. Pressures are given as curvatures, (p_invading − p_defending)/σ.
 //!
 //! Corner films of a chip let the wetting phase out and in, and close throats when they meet (`snap_off`).
 //!

@@ -94,7 +94,7 @@ impl Division {
 }
 
 impl Displacement {
-    /// The pore space full of the defending phase, except elements open at an inlet: openings have no entry pressure.
+    /// Invasion of a pore space full of the defending phase \[WilkinsonWillemsen1983\], except elements open at an inlet: openings have no entry pressure.
     pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
         Self::within(&Division::of(network, pores, conditions.events), conditions)
     }
@@ -285,8 +285,7 @@ impl Displacement {
         Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
     }
 
-    /// Curvature in 1/m at which menisci burst through each throat, the larger of both directions, under other conditions; NaN for throats that
-    /// are not gates.
+    /// Curvature in 1/m at which menisci burst through each throat, the larger of both directions, under other conditions; NaN for throats that are not gates.
     pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
         let mut found = vec![f64::NAN; throats];
         for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {

@@ -6,8 +6,7 @@ use crate::interface::menisci::Passage;
 
 /// Points of a curve; they are denser towards the event, where the curvature of a burst levels off.
 const POINTS: usize = 17;
-/// Capacity dA/dκ, in widths cubed, of a fully receded meniscus: so small that it hardly recedes further, and above 0, so that it can
-/// advance again.
+/// Capacity dA/dκ, in widths cubed, of a fully receded meniscus: so small that it hardly recedes further, and above 0, so that it can advance again.
 const CLOSED: f64 = 1e-4;
 /// Least area between two points in widths squared.
 const LEAST: f64 = 1e-9;
@@ -140,8 +139,7 @@ impl CapillaryCurve {
         Self { area, total: curvature.clone(), curvature, closed: 0.0 }
     }
 
-    /// A constant curvature in 1/m between two areas in m², of a meniscus past walls `width` (m) apart; it does not recede below the first
-    /// area.
+    /// A constant curvature in 1/m between two areas in m², of a meniscus past walls `width` (m) apart; it does not recede below the first area.
     pub(crate) fn level(area: [f64; 2], curvature: f64, width: f64) -> Self {
         let curvature = vec![curvature; 2];
         Self { area: area.to_vec(), total: curvature.clone(), curvature, closed: 1.0 / (CLOSED * width.powi(3)) }

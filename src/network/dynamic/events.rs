@@ -78,8 +78,7 @@ impl Dynamic {
             .collect()
     }
 
-    /// The area in m² that filling neighbors hold in excess of their own belongs to menisci yet to form: those that will enter an element, each
-    /// with its part.
+    /// The area in m² that filling neighbors hold in excess of their own belongs to menisci yet to form: those that will enter an element, each with its part.
     pub(super) fn overhangs(&self, into: usize) -> Vec<(FrontId, f64)> {
         let overhang = |&front: &FrontId| {
             let neighbor = self.behind(front);

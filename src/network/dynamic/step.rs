@@ -136,7 +136,7 @@ impl Dynamic {
         }
     }
 
-    /// The step of the length `dt` in s by Newton's method with an exact line search, starting from the flows of another length.
+    /// The step of `dt` (s) with menisci as capacitors \[Primkulov2019\], by Newton's method with an exact line search from the flows of another length.
     ///
     /// Its flows minimize ½ Σ R q² dt + Σ σ ∫ κ dv among all that balance in every node, a convex problem since κ(v) rises.
     fn trial(&mut self, graph: &Graph, known: &Known, start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {

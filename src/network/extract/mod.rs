@@ -1,10 +1,9 @@
 //! The pore network of a geometry: pores are the local maxima of the wall distance, throats its saddles.
 //!
-//! Chords, the segments between the two wall contacts of a throat, cut the pore space into regions that tile it exactly, one around each
-//! maximum: along a chord the distance falls towards both walls at slope one, so it is the watershed between two maxima. The certificate of
-//! a network: every region contains exactly one maximum, regions are simply connected, their areas sum to that of the pore space, and no
-//! throat is wider than its pores. If it fails, the walls of the regions concerned are sampled more densely, at last all their pairs are
-//! considered, and extraction is repeated.
+//! Chords, the segments between the two wall contacts of a throat, cut the pore space into regions that tile it exactly, one around each maximum: along a chord
+//! the distance falls towards both walls at slope one, so it is the watershed between two maxima. The certificate of a network: every region contains exactly
+//! one maximum, regions are simply connected, their areas sum to that of the pore space, and no throat is wider than its pores. If it fails, the walls of the
+//! regions concerned are sampled more densely, at last all their pairs are considered, and extraction is repeated.
 //!
 //! At a side that is neither wall nor periodic the domain and its regions end with openings. The largest inscribed circle of such a region
 //! may have its center on the side.
@@ -44,8 +43,7 @@ const FEW: usize = 1000;
 /// periodic is cut in the same way whether it is open or not, and its openings are listed.
 ///
 /// # Errors
-/// An [`ExtractError`] if the geometry has no pore space or no walls, if a wall or periodic side is to be open, or if no network with a
-/// certificate is found.
+/// An [`ExtractError`] if the geometry has no pore space or no walls, if a wall or periodic side is to be open, or if no network with a certificate is found.
 pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, ExtractError> {
     for side in (0..4).filter(|&side| open_sides[side]) {
         if geometry.periodic()[side / 2] || geometry.wall_sides()[side] {

@@ -49,7 +49,7 @@ impl NoSlip {
         (1.0 + c * (d_b - b) / (d_a + b)).min(self.largest_stretch)
     }
 
-    /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite.
+    /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite \[Huh1971\].
     pub(crate) fn slip_length_at(&self, line_distance: f64) -> f64 {
         let [near, far] = NEAR_LINE.map(|n| n * self.spacing);
         let weight = ((far - line_distance) / (far - near)).clamp(0.0, 1.0);
@@ -64,7 +64,7 @@ impl NoSlip {
         [if b == 0.0 { across } else { self.stretch_to(distance, wall, b).max(0.0) }, across]
     }
 
-    /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
+    /// The stretched difference of the velocity `v_ab` = v_a − v_wall \[Navier1823\]. With a slip length b (m), the part along the wall is stretched by
     /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) from and `normal` of the wall.
     pub(crate) fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
         let [along, beta] = self.stretches(distance, wall, b);
@@ -80,6 +80,7 @@ impl NoSlip {
 mod tests {
     use super::*;
 
+    /// [Navier1823]
     #[test]
     fn a_velocity_that_vanishes_behind_the_wall_is_extrapolated_to_its_particles() {
         let wall = NoSlip { spacing: 1.0, largest_stretch: 10.0, slip_length: 2.0, line_slip_length: 2.0 };
@@ -91,6 +92,7 @@ mod tests {
         }
     }
 
+    /// [Morris1997, Eq. 28]
     #[test]
     fn without_slip_length_the_whole_difference_is_stretched() {
         let wall = NoSlip { spacing: 1.0, largest_stretch: 1.5, slip_length: 0.0, line_slip_length: 0.0 };
@@ -98,6 +100,7 @@ mod tests {
         assert_eq!(wall.difference(Vec2::new(2.0, 4.0), 0.5, Vec2::y(), flat, 0.0), Vec2::new(3.0, 6.0));
     }
 
+    /// [Morris1997, Eq. 28]
     #[test]
     fn a_vortex_around_a_cylinder_is_extrapolated_into_it() {
         // u = r − R²/r around a cylinder at rest, as in Couette flow between cylinders: 2 (y − y²/2R) to second order.
@@ -112,6 +115,7 @@ mod tests {
         }
     }
 
+    /// [Huh1971]
     #[test]
     fn the_slip_length_of_lines_fades_into_that_of_walls() {
         let wall = NoSlip { spacing: 0.1, largest_stretch: 10.0, slip_length: 0.02, line_slip_length: 0.1 };

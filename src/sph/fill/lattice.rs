@@ -104,8 +104,7 @@ pub(super) fn each_with<T: Send>(
     points.into_iter().zip(found)
 }
 
-/// Fills the domain on the lattice: fluid where the signed distance is above zero, wall particles down to a depth of the
-/// support.
+/// Fills the domain on the lattice: fluid where the signed distance is above zero, wall particles down to a depth of the support.
 ///
 /// `signed_distance` in m; `walls`: which sides (left, right, bottom, top) are walls, with wall particles beyond them.
 pub fn on_lattice(

@@ -17,8 +17,7 @@ impl Region {
         Self { surface: shapes, whole: None, area: None }
     }
 
-    /// A region bounded by walls and interfaces, `whole`, and its interfaces alone, which may extend slightly into the solid; `area` in m² where
-    /// it is known.
+    /// A region bounded by walls and interfaces, `whole`, and its interfaces alone, which may extend slightly into the solid; `area` in m² where it is known.
     pub(crate) fn bounded(whole: Geometry, interfaces: Geometry, area: Option<f64>) -> Self {
         Self { surface: interfaces, whole: Some(whole), area }
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::math::{Vec2, wendland_c2};
 
-/// Wendland's C2 kernel for one smoothing length.
+/// Wendland's C2 kernel for one smoothing length [Huber2013, Eq. 14; Wendland1995].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WendlandC2 {
     /// Smoothing length h in m.
@@ -21,8 +21,7 @@ impl WendlandC2 {
         Self { h, inverse_h: 1.0 / h, norm, gradient_norm: 5.0 * norm / (h * h) }
     }
 
-    /// The kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
-    /// the perfect lattice.
+    /// The kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over the perfect lattice.
     ///
     /// Both approximate integrals that are 1; at h = 1.5 dx they are 1.0051 and .9974. Divided by them, the volume of Eq. (17) is dx²
     /// on the lattice, and gradient, divergence and Laplacian of Eqs. (15) to (31) are exact there for linear (quadratic) fields.
@@ -36,7 +35,7 @@ impl WendlandC2 {
         2.0 * self.h
     }
 
-    /// W(r) in 1/m² [Huber2013, Eq. 14].
+    /// W(r) in 1/m².
     pub fn w(&self, r: f64) -> f64 {
         self.w_and_slope(r).0
     }
@@ -53,9 +52,7 @@ impl WendlandC2 {
         (w, r_ab * slope)
     }
 
-    /// W(r) in 1/m² and (1/r) dW/dr in 1/m⁴.
-    ///
-    /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
+    /// W(r) in 1/m² and (1/r) dW/dr in 1/m⁴. dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
     #[inline]
     pub(crate) fn w_and_slope(&self, r: f64) -> (f64, f64) {
         let q = r * self.inverse_h;
@@ -74,6 +71,7 @@ impl WendlandC2 {
 mod tests {
     use super::*;
 
+    /// [Huber2013, Eq. 14]
     #[test]
     fn the_kernel_integrates_to_one() {
         let kernel = WendlandC2::new(0.3);
@@ -83,6 +81,7 @@ mod tests {
         assert!((sum - 1.0).abs() < 1e-8, "{sum}");
     }
 
+    /// [Huber2013, Eqs. 21-23]
     #[test]
     fn the_line_integral_is_the_integral_along_a_line() {
         let kernel = WendlandC2::new(1.7);
@@ -93,6 +92,7 @@ mod tests {
         assert!((sum * 1.7 - 0.3714).abs() < 1e-4);
     }
 
+    /// [Huber2013, Eq. 14]
     #[test]
     fn the_gradient_is_the_derivative_of_the_kernel() {
         let kernel = WendlandC2::new(0.8);

@@ -113,7 +113,7 @@ pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSid
     }
 }
 
-/// Turns particles that crossed an open side from fluid into buffer particles or back; `spacing` in m.
+/// Turns particles that crossed an open side from fluid into buffer particles or back \[Tafuni2018; Hirschler2016\]. `spacing` in m.
 pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes, spacing: f64) {
     let (mut fluid, mut buffer, mut entered) = (Vec::new(), Vec::new(), Vec::new());
     for a in 0..particles.fluids {

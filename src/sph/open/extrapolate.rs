@@ -63,8 +63,7 @@ impl InteriorPoints {
         self.set_buffers(particles, sides, velocity, OpenSide::given_velocity);
     }
 
-    /// Sets the accelerations of buffer particles in `acceleration` (m/s²) consistently with [`Self::set_buffer_velocity`]: zero where the
-    /// velocity is given.
+    /// Sets the accelerations of buffer particles in `acceleration` (m/s²) consistently with [`Self::set_buffer_velocity`]: zero where the velocity is given.
     pub(crate) fn set_buffer_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
         self.set_buffers(particles, sides, acceleration, |side, x| side.given_velocity(x).map(|_| Vec2::zeros()));
     }

@@ -1,9 +1,8 @@
 //! Open sides: fluid enters and leaves at a given velocity or a given pressure.
 //!
-//! Beyond an open side is a *buffer*: particles that count as fluid in every sum, and whose velocity (at inlets) or
-//! pressure (elsewhere) is given. A buffer particle that crosses inwards becomes fluid, and a new one is created at the far end of
-//! its row; fluid that crosses outwards becomes buffer, and is removed beyond the far end (method: Tafuni et al. 2018; for the
-//! pressure equation Hirschler et al. 2016).
+//! Beyond an open side is a *buffer*: particles that count as fluid in every sum, and whose velocity (at inlets) or pressure (elsewhere) is given. A buffer
+//! particle that crosses inwards becomes fluid, and a new one is created at the far end of its row; fluid that crosses outwards becomes buffer, and is removed
+//! beyond the far end (method: Tafuni et al. 2018; for the pressure equation Hirschler et al. 2016).
 
 mod boundary_fluxes;
 mod buffer;

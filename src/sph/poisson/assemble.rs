@@ -11,9 +11,8 @@ use crate::sph::parallel::values;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
-/// The matrix with the coefficients of Eq. (30) times −V_a; images are identified with their sources [Eq. 34: p' = p].
-///
-/// `volume` in m² and `density` in kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
+/// The matrix of the pressure equation times −V_a [Huber2013, Eq. 30]. Images are identified with their sources, as p' = p. `volume` in m² and `density` in
+/// kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
 pub fn assemble(
     pairs: &Pairs,
     images: &Images,

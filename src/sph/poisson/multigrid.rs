@@ -1,9 +1,8 @@
 //! Multigrid by plain aggregation with a K-cycle, as preconditioner of conjugate gradients (Notay 2010, ETNA 37).
 //!
-//! Aggregates are squares of about 3 × 3 points, the coarse matrix sums the couplings between them, and the
-//! smoother is one forward and one backward Gauss-Seidel sweep. All depends only on the matrix and the positions of
-//! the present step, so that a resumed run repeats it exactly. Blocks of fixed size make the sweeps parallel with the same
-//! bits for any number of threads; since D ≥ Σ A the sweeps converge for any blocks.
+//! Aggregates are squares of about 3 × 3 points, the coarse matrix sums the couplings between them, and the smoother is one forward and one backward
+//! Gauss-Seidel sweep. All depends only on the matrix and the positions of the present step, so that a resumed run repeats it exactly. Blocks of fixed size
+//! make the sweeps parallel with the same bits for any number of threads; since D ≥ Σ A the sweeps converge for any blocks.
 
 use std::sync::Arc;
 
@@ -48,8 +47,7 @@ pub struct Multigrid {
 }
 
 impl Multigrid {
-    /// Builds the hierarchy for `matrix`, whose unknowns lie at `points` about `spacing` (m) apart; `kind` as in
-    /// `Aggregates::by_cell`.
+    /// Builds the hierarchy for `matrix`, whose unknowns lie at `points` about `spacing` (m) apart; `kind` as in `Aggregates::by_cell`.
     pub fn new(matrix: &Matrix, points: &[Vec2], kind: &[u8], spacing: f64) -> Self {
         let mut coarse: Vec<Level> = Vec::new();
         let (mut points, mut kind, mut width) = (points.to_vec(), kind.to_vec(), spacing);
@@ -78,6 +76,7 @@ impl Multigrid {
         self.cycle(0, matrix, r, z);
     }
 
+    /// z ≈ M⁻¹ r by one K-cycle from zero, from the level `depth` to the coarsest \[Notay2010\].
     fn cycle<T: Unknown>(&self, depth: usize, matrix: &Matrix, r: &[T], z: &mut [T]) {
         let Some(next) = self.coarse.get(depth) else {
             match &self.direct {
@@ -101,7 +100,7 @@ impl Multigrid {
         backward(matrix, r, &residual, z);
     }
 
-    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Notay 2010, Alg. 3.2).
+    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Algorithm 3.2) \[Notay2010\].
     fn inner<T: Unknown>(&self, depth: usize, matrix: &Matrix, b: &[T]) -> Vec<T> {
         let n = b.len();
         let mut c = vec![T::ZERO; n];
@@ -238,9 +237,8 @@ impl Rows {
 
 /// The dense factor, with the diagonal entry of the first unknown of each connected component without a Dirichlet value doubled.
 ///
-/// That makes the matrix positive definite and does not change the solution, up to a constant, for right-hand sides with zero sum over
-/// each component. A small shift of the whole diagonal would instead amplify the rounding of that sum to a large constant, whose own
-/// rounding would limit conjugate gradients to 1e-8.
+/// That makes the matrix positive definite and does not change the solution, up to a constant, for right-hand sides with zero sum over each component. A small
+/// shift of the whole diagonal would instead amplify the rounding of that sum to a large constant, whose own rounding would limit conjugate gradients to 1e-8.
 fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
     let n = matrix.rows();
     let mut dense = DMatrix::from_diagonal(&DVector::from_column_slice(&matrix.diagonal));

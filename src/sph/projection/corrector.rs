@@ -10,8 +10,7 @@ use crate::sph::terms::pressure_gradient;
 use crate::sph::view::View;
 
 impl View<'_, Fields> {
-    /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26], with the given flow rates through
-    /// periodic sides.
+    /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26], with the given flow rates through periodic sides.
     pub(super) fn correct(&self, predicted: &Predicted, mut projected: Projected) -> Corrected {
         let Projected { pressure, responses, .. } = &mut projected;
         let acceleration = self.pressure_acceleration(pressure);

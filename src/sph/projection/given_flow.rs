@@ -1,8 +1,7 @@
 //! Periodic sides with a given flow rate: the mean pressure gradient that drives it is an additional unknown of the pressure equation.
 //!
-//! The pressure is p − G·x with p periodic. The velocity at the end of the step is linear in G, so that for each direction w = ∂v/∂(Δt G)
-//! follows from an additional right-hand side of the same matrix, and G from the required rate (Patankar, Liu and Sparrow 1977). The
-//! profile is not prescribed: it develops.
+//! The pressure is p − G·x with p periodic. The velocity at the end of the step is linear in G, so that for each direction w = ∂v/∂(Δt G) follows from an
+//! additional right-hand side of the same matrix, and G from the required rate (Patankar, Liu and Sparrow 1977). The profile is not prescribed: it develops.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -39,7 +38,7 @@ impl View<'_, Fields> {
         self.fields.interface.force.jump().is_some()
     }
 
-    /// The right-hand side of the pressure equation for the unit gradient along `axis`; `matrix` as assembled.
+    /// The right-hand side of the pressure equation for the unit gradient along `axis` \[PatankarLiuSparrow1977\]. `matrix` as assembled.
     pub(super) fn right_side_of_gradient(&self, axis: Vec2, matrix: &Matrix) -> Vec<f64> {
         if !self.gradient_in_pressure() {
             let by = (0..self.state.particles.moving()).map(|a| axis / self.fields.bulk.density[a]).collect();
@@ -138,7 +137,7 @@ fn flow_rate(config: &Configuration, side: &OpenSide, velocity: &[Vec2]) -> f64 
 }
 
 /// The changes in Pa/m of the mean pressure gradients with which fluid of the given `velocity` (m/s) has the given flow rates at the end of a
-/// step of length `dt` (s).
+/// step of length `dt` (s) \[PatankarLiuSparrow1977\].
 pub(super) fn gradient_changes(config: &Configuration, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
     let through = &config.open.through;
     let missing = |i: usize| through[i].flow_rate() - flow_rate(config, &through[i], velocity);

@@ -59,8 +59,7 @@ impl View<'_, Fields> {
 }
 
 impl HydrostaticDifference<'_> {
-    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) + G·(x_b − x_a) in Pa; G drives given flows, and p excludes the
-    /// mean gradient −G.
+    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) + G·(x_b − x_a) in Pa; G drives given flows, and p excludes the mean gradient −G.
     #[inline]
     pub(super) fn difference(&self, a: usize, b: usize) -> f64 {
         let jump = self.jump.map_or(0.0, |jump| self.tension * jump.of(a, b));

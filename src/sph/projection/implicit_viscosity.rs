@@ -1,9 +1,8 @@
 //! Implicit viscosity, which does not limit the time step.
 //!
-//! The forces F(v) at the beginning of the step, including the previous pressure, give the change δ of the velocity,
-//! (m + θ Δt K) δ = Δt F(v), with the viscous matrix K: for F = −K v this is the θ method. Parts of the viscous force that are not in K (the
-//! transposed stress, images in Szewc's form) are explicit: with the transposed stress at most 2K acts, which remains stable. Where F = 0,
-//! δ = 0: rest and steady flow do not depend on the time step.
+//! The forces F(v) at the beginning of the step, including the previous pressure, give the change δ of the velocity, (m + θ Δt K) δ = Δt F(v), with the viscous
+//! matrix K: for F = −K v this is the θ method. Parts of the viscous force that are not in K (the transposed stress, images in Szewc's form) are explicit: with
+//! the transposed stress at most 2K acts, which remains stable. Where F = 0, δ = 0: rest and steady flow do not depend on the time step.
 //!
 //! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, gives the trapezoidal rule for short
 //! steps and backward Euler for long ones, and no mode changes sign.
@@ -150,7 +149,7 @@ impl ViscousMatrix<'_> {
         dt * theta(dt * self.largest_rate)
     }
 
-    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at the beginning of the step.
+    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at the beginning of the step \[Liniger1970\].
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
         let weight = self.weight(dt);
         let fluids = self.diagonal.len();
@@ -171,7 +170,7 @@ impl ViscousMatrix<'_> {
     }
 }
 
-/// The weight of the end of the step, from 1/2 for short to 1 for long steps; `z` is the time step times the largest rate.
+/// The weight of the end of the step \[Liniger1970\], from 1/2 for short to 1 for long steps. `z` is the time step times the largest rate.
 fn theta(z: f64) -> f64 {
     if z < SHORT { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
 }

@@ -5,7 +5,7 @@ use crate::math::Vec2;
 use crate::sph::images::Field;
 use crate::sph::open::InteriorPoints;
 
-/// The intermediate state of a step [Huber2013, Eq. 25].
+/// The intermediate state of a step, after the predictor.
 pub(super) struct Predicted {
     pub(super) dt: f64,
     pub(super) limit: &'static str,
@@ -31,7 +31,7 @@ pub(super) struct Projected {
     pub(super) responses: Vec<Response>,
 }
 
-/// The end of a step before the particles move [Huber2013, Eq. 26].
+/// The end of a step before the particles move, after the corrector.
 pub(super) struct Corrected {
     /// Velocity of fluid and buffers in m/s.
     pub(super) velocity: Vec<Vec2>,

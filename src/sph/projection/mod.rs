@@ -30,7 +30,7 @@ const FIRST_SOLVES: usize = 6;
 const MOST_REPEATS: usize = 10;
 
 impl Flow {
-    /// Takes one step that ends at `until` (s) or before.
+    /// Takes one step that ends at `until` (s) or before, by momentum and continuity [Huber2013, Eqs. 1-3].
     ///
     /// # Errors
     /// See [`SolverError`]; positions, velocities and time are then those before the step.
@@ -94,8 +94,7 @@ impl Flow {
         }
     }
 
-    /// Computes the pressure that the viscous step and open sides need from a previous step, where there is none: that which balances the forces
-    /// at time zero.
+    /// Computes the pressure that the viscous step and open sides need from a previous step, where there is none: that which balances the forces at time zero.
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
         self.start_given_flow()?;
         for _ in 0..if self.config.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {

@@ -40,9 +40,8 @@ pub(super) struct Motion {
 }
 
 impl View<'_, Fields> {
-    /// Moves the particles with the new velocity, and by the density-error shift, if there is any, which corrects density errors without changing
-    /// velocities. The mean of old and new velocity [Huber2013, Eq. 27] would amplify every oscillation not damped by viscosity
-    /// (docs/numerics/forces.md).
+    /// Moves the particles with the new velocity [Huber2013, Eq. 27], and by the density-error shift, if there is any, which corrects density errors without
+    /// changing velocities. The paper's mean of old and new velocity would amplify every oscillation not damped by viscosity (docs/numerics/forces.md).
     ///
     /// # Errors
     /// [`SolverError::BlowUp`] if a particle would move too far.

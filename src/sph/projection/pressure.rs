@@ -45,10 +45,8 @@ struct PressureEquation {
 }
 
 impl View<'_, Fields> {
-    /// The pressure that makes the velocity at the end of the step divergence-free [Huber2013, Eqs. 29-31], with zero mean over each
-    /// component in which no open side gives it.
-    ///
-    /// The right-hand side includes the density-error correction, which is not in the paper.
+    /// The pressure that makes the velocity at the end of the step divergence-free [Huber2013, Eqs. 28, 29]. It has zero mean over each component in which no
+    /// open side gives it. The right-hand side includes the density-error correction, which is not in the paper.
     pub(super) fn project(
         &self,
         predicted: &Predicted,
@@ -185,7 +183,7 @@ impl View<'_, Fields> {
         outflow
     }
 
-    /// Subtracts from the right-hand side `b` the divergence error of the previous pressure in the part of the step beyond the longest explicit one.
+    /// Subtracts from the right side `b` the divergence error of the previous pressure in the part of the step beyond the longest explicit one \[Kan1986\].
     ///
     /// The discrete divergence of the gradient is not exactly the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence
     /// of the gradient): in a steady flow in every step, and through walls. With the subtraction no step leaks more than an explicit one.
@@ -209,8 +207,8 @@ impl View<'_, Fields> {
         });
     }
 
-    /// θ Δt μ_a/V_a (M φ)_a in Pa with φ = p' − p from M φ = b − M p: the difference of the pressure that balances the viscous forces at the end of
-    /// a long step from p' (Timmermans, Minev and van de Vosse 1996). Empty after explicit steps and without
+    /// θ Δt μ_a/V_a (M φ)_a in Pa with φ = p' − p from M φ = b − M p \[Timmermans1996\]: the difference of the pressure that balances the viscous forces
+    /// at the end of a long step from p'. Empty after explicit steps and without
     /// [`Configuration::has_viscous_pressure`](crate::sph::configuration::Configuration::has_viscous_pressure).
     ///
     /// The corrector adds −Δt ∇φ/ρ to a velocity for which viscosity was implicit, so that (1 + θ Δt K) ∇φ = ∇(φ + θ Δt μ M φ/V) has to be

@@ -40,7 +40,7 @@ impl View<'_, Fields> {
         acceleration
     }
 
-    /// 12 μ/(ρ b²) in 1/s: the rate at which floor and lid decelerate a particle, 0 without them.
+    /// 12 μ/(ρ b²) in 1/s: the rate at which floor and lid decelerate a particle, 0 without them \[GondretRabaud1997\].
     ///
     /// μ is the arithmetic mean by the smoothed color, the resistance of layers in series. With the viscosity of each phase, particles of the less
     /// viscous one would overtake those of the other, since the kernel does not resolve the change of the pressure gradient between them.

@@ -12,7 +12,7 @@ use crate::sph::wetting::contact_line::{LineFields, LineParticles, MeanLine};
 use crate::sph::wetting::lines::TrackedLine;
 
 impl View<'_, BulkFields> {
-    /// Normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
+    /// Normals and curvature in a band, surface force and line force of the paper.
     pub(super) fn with_continuum_force(
         &self,
         color: Field<f64>,
@@ -36,8 +36,8 @@ impl View<'_, BulkFields> {
         (InterfaceFields { color, normal, curvature, force, ..InterfaceFields::default() }, lines)
     }
 
-    /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] on the fluid particles in N/m³, from n and n̂, κ and the weights of the forces;
-    /// `angles` returns the contact angles in rad imposed at the detected lines.
+    /// σκn ([`surface_tension::surface_force`]) and the line force ([`LineParticles::line_force`]) on the fluid particles in N/m³, from n and n̂, κ and the
+    /// weights of the forces; `angles` returns the contact angles in rad imposed at the detected lines.
     pub(crate) fn volume_forces(
         &self,
         [normal, unit_normal]: [&[Vec2]; 2],

@@ -1,8 +1,7 @@
 //! Curvature of the interface from local circle fits, free in the bulk and constrained to the contact angle at walls.
 //!
-//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A fit to a stencil that ends at a
-//! wall would assign the curvature of its middle to its end. So the deflection by the known gradient is subtracted from the points before a
-//! circle is fitted (`stencils`).
+//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A fit to a stencil that ends at a wall would assign
+//! the curvature of its middle to its end. So the deflection by the known gradient is subtracted from the points before a circle is fitted (`stencils`).
 //!
 //! At a pinned contact line the fit responds stiffly to the position of the interface, and not as the gradient of an energy: evaluated at the
 //! start of a step, it amplifies the waves of a liquid of low viscosity. There the points at the end of the step are used.
@@ -256,6 +255,7 @@ mod tests {
         (x.y, Vec2::y())
     }
 
+    /// [Pratt1987]
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
@@ -269,6 +269,7 @@ mod tests {
         assert_eq!(fit.curvature(Vec2::new(0.0, 2.0)), None);
     }
 
+    /// [Pratt1987]
     #[test]
     fn a_rough_interface_has_the_same_curvature_on_both_sides() {
         // Bumps of a tenth of a spacing, 2.3 spacings apart, as from single particles on the wrong side of the interface.

@@ -95,7 +95,7 @@ impl Jump {
         }
     }
 
-    /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the defined curvatures.
+    /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the defined curvatures \[Fedkiw1999; Kang2000\].
     #[inline]
     pub(crate) fn of(&self, a: usize, b: usize) -> f64 {
         if !self.is_across[a] {
@@ -155,11 +155,10 @@ fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_we
     (here.way * slope).clamp(-LARGEST_CORRECTION / h, LARGEST_CORRECTION / h)
 }
 
-/// The curvature without the noise of single fits: S κ + g (S κ − S² κ), S the average over fluid particles with a curvature.
+/// The curvature without the noise of single fits \[vanCittert1931\]: S κ + g (S κ − S² κ), S the average over fluid particles with a curvature.
 ///
-/// The second term compensates for the attenuation of resolved waves (van Cittert 1931), to fourth order in kh, by S, the fits and the
-/// smoothed color. The curvature of an interface at rest is unchanged, also at a wall: `rest(a, b)` in 1/m is the difference at rest of the
-/// curvature at a from that at b.
+/// The second term compensates for the attenuation of resolved waves, to fourth order in kh, by S, the fits and the smoothed color. The curvature of an
+/// interface at rest is unchanged, also at a wall: `rest(a, b)` in 1/m is the difference at rest of the curvature at a from that at b.
 fn smoothed(
     curvature: Vec<f64>,
     Neighborhood { pairs, images }: &Neighborhood,

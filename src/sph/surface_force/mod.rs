@@ -29,7 +29,7 @@ use crate::sph::terms::color;
 use crate::sph::view::View;
 use crate::sph::wetting::lines::TrackedLine;
 
-/// The fields of the interface [Huber2013, Eqs. 18-23], and the present contact lines.
+/// The fields of the interface and the present contact lines.
 pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec<TrackedLine>) {
     let (Neighborhood { pairs, images }, method) = (flow.neighborhood, &flow.config.method);
     let (n, moving, phase) = (flow.state.particles.len(), flow.state.particles.moving(), &flow.state.particles.phase);

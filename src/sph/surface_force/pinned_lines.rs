@@ -45,7 +45,7 @@ struct End {
 }
 
 impl InterfaceLine<'_> {
-    /// The pinned line where the interface meets the wall at the `angle` (rad), `None` if the wall does not bend there.
+    /// The pinned line where the interface meets the wall at the `angle` (rad), `None` if the wall does not bend there \[Oliver1977\].
     pub(crate) fn pinned(&self, angle: f64) -> Option<PinnedLine> {
         let (interface, place) = (self.interface, self.place);
         let normal_at = |s: f64| (interface.wall)(place + s * interface.h * self.outward()).1;
@@ -124,6 +124,7 @@ mod tests {
             .collect()
     }
 
+    /// [Oliver1977]
     #[test]
     fn a_drop_that_ends_at_an_edge_has_one_curvature_at_any_angle_between_those_of_both_faces() {
         let domain = Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]);

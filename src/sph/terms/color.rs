@@ -8,10 +8,8 @@ use crate::sph::terms::average;
 /// Determinant of the moment matrix, 1 inside the fluid and about 1/4 in a right corner, below which its inverse is unreliable.
 const SMALLEST_DETERMINANT: f64 = 0.05;
 
-/// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, including the particle itself (Shepard average).
-///
-/// Smoothing once before the gradient reduces the error of the curvature; the paper does not mention it. Particles that are not `mixed`, with
-/// only one color in reach, keep theirs.
+/// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, including the particle itself (Shepard average). Smoothing once before the gradient reduces the error of
+/// the curvature; the paper does not mention it. Particles that are not `mixed`, with only one color in reach, keep theirs.
 pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], mixed: &[bool]) -> Vec<f64> {
     values(mixed.len(), |a| if mixed[a] { average::over_fluid(a, pairs, fluid_volume, color) } else { color[a] })
 }
@@ -21,10 +19,8 @@ pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], count:
     pairs.sums(count, |a, ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w)
 }
 
-/// The gradient of Eq. (18) made exact for linear fields: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
-///
-/// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is nearly singular the gradient is not corrected.
-/// `r_ab(a, b)` in m. Zero if a particle is not `near` the interface.
+/// The color gradient made exact for linear fields \[Bonet1999\]: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid. B_a is the inverse of −Σ_b V_b r_ab
+/// ⊗ ∇_a W_ab; where that is nearly singular the gradient is not corrected. `r_ab(a, b)` in m. Zero if a particle is not `near` the interface.
 pub(crate) fn consistent_gradient(
     pairs: &Pairs,
     fluid_volume: &[f64],

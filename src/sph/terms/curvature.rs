@@ -4,10 +4,10 @@ use crate::math::Vec2;
 use crate::sph::pairs::Pairs;
 use crate::sph::parallel::values;
 
-/// |n| in units of 1/h below which a normal is noise [Morris2000, section 3.3].
+/// |n| in units of 1/h below which a normal is noise, for [`unit_normal`].
 const SMALLEST_NORMAL: f64 = 0.01;
 
-/// n̂_a = n_a/|n_a| if |n_a| > 0.01/h, else zero, which means not valid. `h` in m.
+/// The unit normal n̂_a of normals n_a longer than 0.01/h, else zero: not valid [Morris2000, Sect. 3.3]. `h` in m.
 pub fn unit_normal(normal: &[Vec2], h: f64) -> Vec<Vec2> {
     values(normal.len(), |a| {
         let length = normal[a].norm();
@@ -15,9 +15,8 @@ pub fn unit_normal(normal: &[Vec2], h: f64) -> Vec<Vec2> {
     })
 }
 
-/// Curvature κ = −∇·n̂ in 1/m [Huber2013, Eq. 19], positive for a drop of the wetting phase.
-///
-/// κ_a = −Σ_b V_b (n̂_b − n̂_a)·∇_a W_ab / Σ_b V_b W_ab, over fluid with a valid normal.
+/// Curvature κ = −∇·n̂ in 1/m [Huber2013, Eq. 19; Morris2000, Sect. 3.3], positive for a drop of the wetting phase. κ_a = −Σ_b V_b (n̂_b − n̂_a)·∇_a W_ab / Σ_b
+/// V_b W_ab, over fluid with a valid normal.
 pub fn curvature(pairs: &Pairs, fluid_volume: &[f64], unit_normal: &[Vec2], count: usize) -> Vec<f64> {
     let valid = |a: usize| unit_normal[a] != Vec2::zeros();
     values(count, |a| {

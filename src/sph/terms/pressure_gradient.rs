@@ -6,17 +6,14 @@ use crate::sph::pairs::Pairs;
 /// Moment below which a particle has too few neighbors to divide by it.
 const SMALLEST_MOMENT: f64 = 0.5;
 
-/// −(∇p/ρ)_a = −Σ_b m_b (p_a + p_b)/(ρ_a ρ_b) ∇_a W_ab in m/s² [Huber2013, Eq. 15], after Morris 2000.
-///
-/// Conserves momentum; the constant in p matters, since it orders the particles. Up to density ratios of about 5.
+/// −(∇p/ρ)_a = −Σ_b m_b (p_a + p_b)/(ρ_a ρ_b) ∇_a W_ab in m/s² [Huber2013, Eq. 15], after Morris 2000. Conserves momentum; the constant in p matters, since it
+/// orders the particles. Up to density ratios of about 5.
 pub fn symmetric(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], count: usize) -> Vec<Vec2> {
     pairs.sums(count, |a, ab| -volume[ab.b] * (pressure[a] + pressure[ab.b]) / density[a] * ab.grad_w)
 }
 
-/// −(1/m_a) Σ_b (V_a² + V_b²) (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b) ∇_a W_ab in m/s² [HuAdams2006, Eqs. 25, 29].
-///
-/// Conserves momentum and is continuous in ∇p/ρ across the interface; the constant in p orders the particles as in
-/// [`symmetric`], to which it reduces for equal densities and volumes.
+/// −(1/m_a) Σ_b (V_a² + V_b²) (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b) ∇_a W_ab in m/s² [HuAdams2006, Eqs. 25, 29]. Conserves momentum and is continuous in ∇p/ρ across
+/// the interface; the constant in p orders the particles as in [`symmetric`], to which it reduces for equal densities and volumes.
 pub(crate) fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], count: usize) -> Vec<Vec2> {
     pairs.sums(count, |a, ab| {
         let b = ab.b;
@@ -26,12 +23,10 @@ pub(crate) fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure:
     })
 }
 
-/// −Σ_b V_b 2 (p_b − p_a)/(ρ_a + ρ_b) ∇_a W_ab in m/s²: the gradient whose Laplacian is Eq. (30).
+/// −Σ_b V_b 2 (p_b − p_a − `rise`)/(ρ_a + ρ_b) ∇_a W_ab in m/s², with the pressure jump at the interface in `rise` \[Fedkiw1999; Kang2000\].
 ///
-/// Continuous in ∇p/ρ across the interface, so valid at any density ratio; independent of the constant in p, while momentum is conserved only
-/// as far as the particles are ordered.
-///
-/// `rise(a, b)` = p_b − p_a in Pa in a fluid at rest.
+/// The gradient whose Laplacian is Eq. (30). Continuous in ∇p/ρ across the interface, so valid at any density ratio; independent of the constant in p, while
+/// momentum is conserved only as far as the particles are ordered. `rise(a, b)` = p_b − p_a in Pa in a fluid at rest.
 pub fn difference(
     pairs: &Pairs,
     volume: &[f64],
@@ -51,10 +46,8 @@ pub fn moment(pairs: &Pairs, volume: &[f64], r_ab: impl Fn(usize, usize) -> Vec2
     pairs.sums(count, |a, ab| -0.5 * volume[ab.b] * r_ab(a, ab.b).dot(&ab.grad_w))
 }
 
-/// Divides the result of [`difference`] by the [`moment`] of its sums.
-///
-/// Divergence, gradient and the Laplacian of Eq. (30) all have this factor. With the factor removed from the gradient, the divergence of the
-/// gradient is the Laplacian, averaged over directions. A particle with few neighbors is not corrected.
+/// Divides the result of [`difference`] by the [`moment`] of its sums. Divergence, gradient and the Laplacian of Eq. (30) all have this factor. With the factor
+/// removed from the gradient, the divergence of the gradient is the Laplacian, averaged over directions. A particle with few neighbors is not corrected.
 pub fn correct_gradient(moment: &[f64], acceleration: &mut [Vec2]) {
     for (acceleration, &moment) in acceleration.iter_mut().zip(moment) {
         if moment > SMALLEST_MOMENT {

@@ -1,9 +1,8 @@
 //! Interface sharpening: moves back single particles that an advancing or receding interface leaves in the other phase.
 //!
-//! Nothing in the equations returns them: the smoothed color does not resolve a single particle, and the no-slip first
-//! layer of particles on a wall leaves a trail of them behind a receding contact line. As the compression of the color
-//! function in volume-of-fluid codes, a drift across the interface keeps the phases apart; it vanishes for particles
-//! surrounded by their own phase, so that it does not affect an interface at rest.
+//! Nothing in the equations returns them: the smoothed color does not resolve a single particle, and the no-slip first layer of particles on a wall leaves a
+//! trail of them behind a receding contact line. As the compression of the color function in volume-of-fluid codes, a drift across the interface keeps the
+//! phases apart; it vanishes for particles surrounded by their own phase, so that it does not affect an interface at rest.
 //!
 //! Surface tension retains a heavy phase beside or above a light one, but the curvature does not resolve lengths below its fit: single particles
 //! would fall out of the interface one by one. Only there, particles that protrude from the first layer are moved back too.

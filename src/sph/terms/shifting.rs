@@ -14,13 +14,13 @@ const INTERFACE: f64 = 0.05;
 /// A particle is shifted by at most this fraction of h per step.
 const LARGEST_SHIFT: f64 = 0.1;
 
-/// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to denser regions.
+/// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m, which points to denser regions \[Lind2012\].
 pub(crate) fn concentration_gradient(pairs: &Pairs, volume: &[f64], count: usize) -> Vec<Vec2> {
     pairs.sums(count, |_, ab| volume[ab.b] * ab.grad_w)
 }
 
-/// Removes the component of a concentration gradient normal to the interface, so that the interface keeps its position and shape; `normal` is
-/// the color gradient in 1/m, `h` in m (method: Lind et al. 2012 at a free surface).
+/// Removes the component of a concentration gradient normal to the interface, as at a free surface \[Lind2012\]. The interface then keeps its position and
+/// shape. `normal` is the color gradient in 1/m, `h` in m.
 pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
     for (gradient, n) in gradient.iter_mut().zip(normal) {
         if n.norm() > INTERFACE / h {
@@ -29,14 +29,13 @@ pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
     }
 }
 
-/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply at distances below dx (after Monaghan 2000, Lind et al. 2012).
-///
-/// ∇C can vanish for particles clustered in pairs or rows; this sum does not. `w_of_spacing` = W(dx) in 1/m².
+/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m, which grows steeply at distances below dx \[Monaghan2000; Lind2012\]. ∇C can vanish for particles clustered
+/// in pairs or rows; this sum does not. `w_of_spacing` = W(dx) in 1/m².
 pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacing: f64, count: usize) -> Vec<Vec2> {
     pairs.sums(count, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w)
 }
 
-/// s_a − ⟨s⟩_a with the average over the surrounding fluid: the remainder separates neighbors without collective displacement.
+/// The anti-clustering force s_a \[Monaghan2000\] less its average over the surrounding fluid. The rest separates neighbors without collective displacement.
 ///
 /// The mean of these short-range forces drives particles from strained regions to regions at rest. The pressure would have to return the fluid by
 /// a spurious flow, also through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
@@ -45,7 +44,8 @@ pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push:
     each(push, |a| all[a] - average::over_fluid(a, pairs, fluid_volume, &all));
 }
 
-/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `shifting_vector` is ∇C with the anti-clustering force in 1/m, `diffusion` in m², `h` and result in m.
+/// δr_a = −`diffusion` ∇C_a, at most 0.1 h \[Lind2012; Skillen2013\]. `shifting_vector` is ∇C with the anti-clustering force in 1/m, `diffusion` in m², `h` and
+/// result in m.
 pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec2> {
     values(shifting_vector.len(), |a| {
         let by = -diffusion * shifting_vector[a];
@@ -53,9 +53,8 @@ pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec
     })
 }
 
-/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: for the velocity at the shifted position [Lind2012, Eq. 26].
-///
-/// By the weight a heavy fluid takes hardly any velocity from a light one next to it, as little as momentum; within one fluid it is 1.
+/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: for the velocity at the shifted position [Lind2012, Eq. 26]. By the weight a
+/// heavy fluid takes hardly any velocity from a light one next to it, as little as momentum; within one fluid it is 1.
 pub fn carried_velocity(
     pairs: &Pairs,
     volume: &[f64],

@@ -15,16 +15,15 @@ pub struct Viscous<'a> {
 }
 
 impl Viscous<'_> {
-    /// (1/ρ_a) Σ_b V_b 2 μ_ab v_ab (r_ab·∇_a W_ab)/(|r_ab|² + ζ²), μ_ab the harmonic mean [Morris1997, Eq. 22].
+    /// Viscous acceleration in m/s² with the harmonic mean μ_ab of the viscosities [Morris1997, Eq. 22].
     ///
-    /// `v_ab(a, b)` in m/s is the velocity difference. Conserves momentum.
+    /// (1/ρ_a) Σ_b V_b 2 μ_ab v_ab (r_ab·∇_a W_ab)/(|r_ab|² + ζ²), with the velocity difference `v_ab(a, b)` in m/s. Conserves momentum.
     pub fn morris(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<Vec2> {
         values(count, |a| pairs.of(a).map(|ab| self.friction(a, &ab) * v_ab(a, ab.b)).sum::<Vec2>() / self.density[a])
     }
 
-    /// Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η = μ/ρ [Huber2013, Eq. 16].
-    ///
-    /// r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²) is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
+    /// Viscous acceleration of the paper in m/s² [Huber2013, Eq. 16; Szewc2012]. Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η =
+    /// μ/ρ. r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²) is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
     pub fn szewc(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<Vec2> {
         pairs.sums(count, |a, ab| {
             let b = ab.b;
@@ -37,8 +36,7 @@ impl Viscous<'_> {
         })
     }
 
-    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: the factor of v_ab in the force of b on a in Morris's form.
-    /// Symmetric in a and b.
+    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: the factor of v_ab in the force of b on a in Morris's form. Symmetric in a and b.
     #[inline]
     pub(crate) fn coupling(&self, a: usize, ab: &Pair) -> f64 {
         -self.volume[a] * self.friction(a, ab)

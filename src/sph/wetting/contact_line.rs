@@ -108,9 +108,8 @@ impl LineParticles {
         self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
     }
 
-    /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23].
-    ///
-    /// `angles` in rad are those of the wetting law at each line, in the order of detection; `tension` is σ_wn in N/m.
+    /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eqs. 21-23]. `angles` in rad are those of the wetting law at each line, in the order of detection;
+    /// `tension` is σ_wn in N/m.
     pub fn line_force(&self, fields: &LineFields, delta: LineDelta, angles: &[f64], tension: f64) -> Vec<Vec2> {
         let mut force = vec![Vec2::zeros(); fields.weight.len()];
         for ((particles, norm), angle) in self.lines.iter().zip(&self.norm).zip(angles) {

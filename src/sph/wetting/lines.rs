@@ -90,7 +90,7 @@ pub struct ContactLineTracker<'a> {
 }
 
 impl ContactLineTracker<'_> {
-    /// The present lines, from those of the previous step, `dt` (s) ago, and the detected ones, which come first, in the order of detection.
+    /// The present lines, from those of the previous step, `dt` (s) ago, and the detected ones, which come first, in order \[Dussan1979\].
     pub fn track(&self, before: &[TrackedLine], detected_lines: &[impl DetectedLine], dt: f64) -> Vec<TrackedLine> {
         let moved: Vec<TrackedLine> = before.iter().map(|line| self.carried(line, dt)).collect();
         let known = self.matches(&moved, detected_lines);
@@ -244,6 +244,7 @@ mod tests {
         Wetting::Hysteresis(Hysteresis { advancing_angle_deg: 100.0, receding_angle_deg: 60.0 })
     }
 
+    /// [Dussan1979]
     #[test]
     fn a_line_within_its_range_is_drawn_back_to_its_anchor() {
         let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
@@ -254,6 +255,7 @@ mod tests {
         assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
     }
 
+    /// [Dussan1979]
     #[test]
     fn a_line_beyond_its_range_has_the_bound_and_takes_its_anchor_along() {
         let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);

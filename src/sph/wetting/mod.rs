@@ -17,6 +17,7 @@ pub(crate) fn driving_force(tension: f64, angle: f64, cos_alpha: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// [Huber2013, Eq. 7]
     #[test]
     fn a_line_at_its_static_angle_feels_no_force() {
         for degrees in [0.0_f64, 40.0, 90.0, 140.0, 180.0] {
@@ -25,6 +26,7 @@ mod tests {
         }
     }
 
+    /// [Huber2013, Eq. 7]
     #[test]
     fn a_line_that_stands_too_steep_is_driven_outwards() {
         assert!(driving_force(1.0, 1.0, 1.5_f64.cos()) > 0.0);

@@ -219,6 +219,7 @@ mod tests {
         [[axis]]\nkey = 'a'\ndistribution = { uniform = { from = 1.0, to = 2.0 } }\n\
         [[axis]]\nkey = 'b'\ndistribution = { uniform = { from = 1.0, to = 3.0 } }\n";
 
+    /// [SaltelliEtAl2010; Jansen1999]
     #[test]
     fn indices_of_a_product_are_those_in_closed_form() {
         let study = study(INPUTS);

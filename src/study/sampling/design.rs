@@ -29,13 +29,13 @@ fn coordinate(point: usize, dimension: usize, seed: u32) -> f64 {
     f64::from(sample(point as u32, dimension as u32, seed)) + HALF_A_STEP
 }
 
-/// `count` independent samples of `inputs` inputs.
+/// `count` independent samples of `inputs` inputs \[Burley2020\].
 pub(super) fn plain(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     (0..count).map(|point| (Matrix::A, (0..inputs).map(|k| coordinate(point, k, seed)).collect())).collect()
 }
 
-/// The rows for Sobol indices (Saltelli et al. 2010): for each sample one of A, one of B, and one of A with the column of B for each input. Samples follow one
-/// another, so that the first rows are those of fewer samples.
+/// The rows for Sobol indices [SaltelliEtAl2010, Sect. 3]: for each sample one of A, one of B, and one of A with the column of B for each input. Samples follow
+/// one another, so that the first rows are those of fewer samples.
 pub(super) fn saltelli(count: usize, inputs: usize, seed: u32) -> Vec<Row> {
     let rows = |point: usize| {
         let [a, b] =
@@ -68,6 +68,7 @@ pub(super) fn factor(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
 mod tests {
     use super::*;
 
+    /// [Burley2020]
     #[test]
     fn a_sample_of_a_power_of_two_has_one_value_in_each_stratum() {
         const COUNT: usize = 256;
@@ -81,6 +82,7 @@ mod tests {
         assert_eq!(plain(4, 2, 1), plain(8, 2, 1)[..4]);
     }
 
+    /// [SaltelliEtAl2010, Sect. 3]
     #[test]
     fn a_mixed_row_has_one_column_of_the_other_matrix() {
         let rows = saltelli(8, 2, 1);

@@ -1,7 +1,6 @@
 //! Lines and arcs joined at their ends into closed rings.
 //!
-//! Ends within a gap coincide. Duplicate pieces count once. Chains with a dead end are open. Where more than two pieces meet, they are followed in file
-//! order.
+//! Ends within a gap coincide. Duplicate pieces count once. Chains with a dead end are open. Where more than two pieces meet, they are followed in file order.
 
 use std::collections::BTreeMap;
 

@@ -7,6 +7,7 @@ use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Hand, Passage, Wall, WallPart};
 use crate::math::{Vec2, perpendicular};
 
+/// [CieplakRobbins1988]
 #[test]
 fn equal_discs_burst_at_the_tabulated_pressures() {
     // Benchmark C7, printed to five decimals.
@@ -49,6 +50,7 @@ fn a_disc_over_a_plate_bursts_where_the_closed_form_says() {
     }
 }
 
+/// [CieplakRobbins1988]
 #[test]
 fn random_discs_burst_where_a_root_search_says() {
     let mut random = Random(1);
@@ -107,6 +109,7 @@ fn posts(width: f64, theta: f64) -> Passage {
     Passage::new(polyline(&left, 2, theta, Hand::Left), polyline(&right, 2, theta, Hand::Right))
 }
 
+/// [Oliver1977]
 #[test]
 fn square_posts_are_left_at_their_edges() {
     let w = 0.8;

@@ -7,6 +7,7 @@ use crate::geometry::curve::{Curve, cross};
 use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::math::Vec2;
 
+/// [CieplakRobbins1988]
 #[test]
 fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
     let mut random = Random(5);
@@ -61,6 +62,7 @@ fn walls_far_behind_a_throat_change_nothing_ahead_of_it() {
     }
 }
 
+/// [CieplakRobbins1988]
 #[test]
 fn neighbors_overlap_where_a_dense_scan_sees_it() {
     let mut random = Random(7);
