@@ -72,15 +72,23 @@ struct Item {
     is_test: bool,
 }
 
-/// The name that a line declares; of `impl TRAIT for TYPE` the type.
+/// The type of a block of methods.
+fn type_of_methods(line: &str) -> Option<&str> {
+    let rest = line.strip_prefix("impl")?;
+    let rest = rest.strip_prefix('<').and_then(|rest| rest.split_once("> ")).map_or(rest, |(_, rest)| rest);
+    let name = rest.split(" for ").last()?.trim_start();
+    name.split(|c: char| !c.is_alphanumeric() && c != '_').next()
+}
+
+/// The name that a line declares; of a block of methods that of the type.
 fn declared(line: &str) -> Option<&str> {
     let line = ["pub(crate) ", "pub(super) ", "pub "].iter().find_map(|word| line.strip_prefix(word)).unwrap_or(line);
     let line = line.strip_prefix("const fn").map_or(line, |_| &line["const ".len()..]);
     let kinds = ["fn ", "struct ", "enum ", "trait ", "type ", "const "];
-    let rest = kinds.iter().find_map(|kind| line.strip_prefix(kind));
-    let rest =
-        rest.or_else(|| line.strip_prefix("impl").and_then(|rest| rest.split_once(" for ")).map(|(_, rest)| rest))?;
-    rest.split(|c: char| !c.is_alphanumeric() && c != '_').next()
+    match kinds.iter().find_map(|kind| line.strip_prefix(kind)) {
+        Some(rest) => rest.split(|c: char| !c.is_alphanumeric() && c != '_').next(),
+        None => type_of_methods(line),
+    }
 }
 
 /// The first sentence of a comment, without links to items.
@@ -93,17 +101,23 @@ fn first_sentence(comment: &str) -> String {
 fn items(path: &Path, bibliography: &str) -> Vec<Item> {
     let source = std::fs::read_to_string(path).unwrap();
     let file = path.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/");
-    let (mut found, mut comment, mut is_test) = (Vec::new(), String::new(), false);
-    for line in source.lines().map(str::trim) {
+    let (mut found, mut comment, mut is_test, mut methods_of) = (Vec::new(), String::new(), false, None);
+    for (line, indented) in source.lines().map(|indented| (indented.trim(), indented)) {
+        if indented == "}" {
+            methods_of = None;
+        }
         if let Some(text) = line.strip_prefix("///") {
             comment += &format!("{}{}", if comment.is_empty() { "" } else { " " }, text.trim());
         } else if line.starts_with("#[") {
             is_test |= line == "#[test]";
         } else {
-            let (citations, rest) = Citation::all(&comment, bibliography);
+            let (citations, rest) = Citation::all(&comment.replace("\\[", "[").replace("\\]", "]"), bibliography);
+            methods_of = type_of_methods(indented).or(methods_of);
             if let (false, Some(name)) = (citations.is_empty(), declared(line)) {
+                let of_type = methods_of.filter(|_| line != indented).map(|of| format!("{of}::"));
+                let name = of_type.unwrap_or_default() + name;
                 let what = first_sentence(&rest);
-                found.push(Item { file: file.clone(), name: name.to_owned(), what, citations, is_test });
+                found.push(Item { file: file.clone(), name, what, citations, is_test });
             }
             (comment, is_test) = (String::new(), false);
         }

@@ -11,6 +11,7 @@ use meniscus::input::Overrides;
 use meniscus::run::setup;
 use meniscus::snapshot::Field;
 use meniscus::solver::Solver;
+use meniscus::table::Column;
 
 use crate::keys::followed;
 use crate::page::{Page, code, files, page, root, text};
@@ -155,6 +156,7 @@ fn solver(case: &str) -> Box<dyn Solver> {
 
 const FLOW: &str = "cases/poiseuille.toml";
 const FILM: &str = "cases/thin-film/partial-wetting.toml";
+const FILMS: &str = "cases/network/films.toml";
 const NETWORK: &str = "cases/network/drainage.toml";
 const IN_TIME: &str = "cases/network/dynamic.toml";
 
@@ -163,8 +165,19 @@ fn every_column_of_the_series_is_described() {
     let in_time = (IN_TIME, "Series of a displacement in time");
     for (case, title) in [(FLOW, "# `series.csv`"), (FILM, "Film columns"), (NETWORK, "Network columns"), in_time] {
         let there = solver(case).sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
-        assert_eq!(names(&section(&page("docs/reference/output.md"), title)), there);
+        assert_eq!(of_plane(&page("docs/reference/output.md"), title), there);
     }
+    let there = solver(FILMS).sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
+    assert_eq!(names(&section(&page("docs/reference/output.md"), "Network columns")), there);
+}
+
+/// Columns that only a chip with a depth, or a network with films, has.
+const OF_DEPTH_OR_FILMS: [&str; 6] =
+    ["volume_m3", "film_volume_m3", "conductance_m3", "inflow_m3_per_s", "snap_offs", "film_saturation"];
+
+/// The columns that a section of the page has in the plane without films.
+fn of_plane(page: &Page, title: &str) -> Vec<String> {
+    names(&section(page, title)).into_iter().filter(|name| !OF_DEPTH_OR_FILMS.contains(&name.as_str())).collect()
 }
 
 /// The second words of the rows of a table in `src/sph/measures/chip.rs`: names of values of all of the depth.
@@ -207,20 +220,26 @@ fn every_array_of_a_network_is_described_with_its_unit() {
 #[test]
 fn every_column_of_the_tables_of_a_network_is_described() {
     let solver = solver(NETWORK);
-    let tables = solver.results().tables;
+    let with_films = self::solver(FILMS);
     let page = page("docs/reference/output.md");
-    let mut count = 0;
     // The columns of `openpnm.csv` are those of another program.
-    for table in tables.iter().filter(|table| table.name != "openpnm") {
-        let there = table.columns.iter().map(|column| column.name.to_owned()).collect::<Vec<_>>();
-        assert_eq!(names(&section(&page, &format!("Columns of `{}.csv`", table.name))), there);
-        count += 1;
+    let tables = |solver: &dyn Solver| -> Vec<(String, Vec<String>)> {
+        let tables = solver.results().tables.into_iter().filter(|table| table.name != "openpnm");
+        let names = |columns: Vec<Column>| columns.iter().map(|column| column.name.to_owned()).collect();
+        tables.map(|table| (format!("Columns of `{}.csv`", table.name), names(table.columns))).collect()
+    };
+    let (plane, with_films) = (tables(&*solver), tables(&*with_films));
+    assert_eq!((plane.len(), with_films.len()), (4, 5));
+    for (title, columns) in plane {
+        assert_eq!(of_plane(&page, &title), columns);
     }
-    assert_eq!(count, 4);
+    for (title, columns) in with_films {
+        assert_eq!(set(names(&section(&page, &title))), set(columns), "{title}");
+    }
     let in_time = self::solver(IN_TIME).results().tables;
     let events = in_time.iter().find(|table| table.name == "events").unwrap();
     let there = events.columns.iter().map(|column| column.name.to_owned()).collect::<Vec<_>>();
-    assert_eq!(names(&section(&page, "Events of a displacement in time")), there);
+    assert_eq!(of_plane(&page, "Events of a displacement in time"), there);
 }
 
 #[test]
