@@ -9,7 +9,7 @@ use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
 use crate::wetting::Wetting;
 
-/// Density ratio above which Eq. (15) fails.
+/// Density ratio above which the symmetric pressure gradient (Eq. 15) fails.
 const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 
 /// Density ratio above which the unweighted continuum force makes the light particles too fast.

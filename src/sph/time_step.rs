@@ -8,7 +8,7 @@ use crate::sph::method::Method;
 /// Courant number on the smoothing length, without surface tension. It bounds the error of particle trajectories.
 const COURANT: f64 = 0.125;
 
-/// Courant number with surface tension, where the measures of the gallery do not differ between the two values (docs/numerics/forces.md, "Limit by velocity").
+/// Courant number with surface tension, where the measures of the gallery do not differ between the two values.
 const COURANT_WITH_TENSION: f64 = 0.25;
 
 /// Largest Courant number for any factor on the step: with the overshoot below, displacements remain under the limit that ends a run.
@@ -22,13 +22,13 @@ const OVERSHOOT: f64 = 1.5;
 /// steps, and for the time of the density-error correction: less frequent corrections give a measurably less uniform density.
 const CAPILLARY: f64 = 0.5;
 
-/// The factor with implicit viscosity. The fitted curvature damps short waves: the stiffest have 5 spacings, and steps are stable up to 4.5.
+/// `CAPILLARY` with implicit viscosity. The fitted curvature damps short waves: the stiffest have 5 spacings, and steps are stable up to 4.5.
 const LONG_CAPILLARY: f64 = 2.0;
 
-/// The factor for a flow near rest, where a longer step does not reduce the accuracy.
+/// `CAPILLARY` for a flow near rest, where a longer step does not reduce the accuracy.
 const RESTING_CAPILLARY: f64 = 4.0;
 
-/// Density ratio above which both are halved: at 1000 longer steps eject particles of the liquid into the gas.
+/// Density ratio above which the last two are halved: at 1000 longer steps eject particles of the liquid into the gas.
 const LIGHT_GAS: f64 = 20.0;
 
 /// Longest implicit step without surface tension over the decay time of the slowest viscous mode: pressure and flow settle together.
@@ -37,7 +37,7 @@ const VISCOUS: f64 = 0.25;
 /// Longest implicit step over the time since the forces were applied, if the pressure is that of the end of the step: later changes are slow.
 const VISCOUS_LATER: f64 = 0.125;
 
-/// A flow slower than this over the capillary speed is near rest.
+/// Speed over the capillary speed below which a flow is near rest.
 const SLOW: f64 = 1e-3;
 
 /// Szewc's form acts along the line of centers with four times the coefficient of Morris's form, on average with twice.

@@ -13,6 +13,7 @@ use meniscus::snapshot::Field;
 use meniscus::solver::Solver;
 use meniscus::table::Column;
 
+use crate::generated::{as_code, compare, filled, table};
 use crate::keys::followed;
 use crate::page::{Page, code, files, page, root, text};
 
@@ -330,14 +331,31 @@ fn the_exit_codes_and_commands_of_the_reference_are_those_of_the_help() {
     }
 }
 
+/// A row of the table of constants: name, value, file, and the first sentence of the comment.
+fn row_of_constant(file: &str, name: &str) -> [String; 4] {
+    let source = text(file);
+    let lines: Vec<&str> = source.lines().collect();
+    let at = lines.iter().position(|line| line.contains(&format!("const {name}: ")));
+    let at = at.unwrap_or_else(|| panic!("{file} has no {name}"));
+    let comment = lines[..at].iter().rev().map_while(|line| line.strip_prefix("/// ")).collect::<Vec<_>>();
+    let comment = comment.into_iter().rev().collect::<Vec<_>>().join(" ");
+    let meaning = comment.split(". ").next().unwrap_or_default().trim_end_matches('.').to_owned();
+    let value = lines[at].split("= ").nth(1).unwrap_or_default().trim_end_matches(';');
+    [as_code(&[name.to_owned()]), as_code(&[value.to_owned()]), as_code(&[file.to_owned()]), meaning]
+}
+
 #[test]
-fn the_constants_on_the_page_of_numerics_are_those_of_the_source() {
-    let rows = section(&page("docs/numerics/overview.md"), "Constants");
-    for row in &rows {
-        let [name, value, file] = [0, 1, 2].map(|i| code(&row[i]).remove(0));
-        let source = text(&file);
-        let line = source.lines().find(|line| line.contains(&format!("const {name}: ")));
-        let found = line.unwrap_or_else(|| panic!("{file} has no {name}")).split("= ").nth(1).unwrap();
-        assert_eq!(found.trim_end_matches(';'), value, "{name} in {file}");
-    }
+fn the_table_of_constants_is_that_of_the_source() {
+    let path = "docs/numerics/overview.md";
+    let rows = |block: &str| {
+        let mut file = "";
+        let rows = block.split_whitespace().filter_map(|word| {
+            if word.contains('/') {
+                file = word;
+            }
+            (!word.contains('/')).then(|| row_of_constant(file, word))
+        });
+        table(["constant", "value", "file", "meaning"], &rows.collect::<Vec<_>>())
+    };
+    compare(path, &filled(&text(path), "constants", rows));
 }

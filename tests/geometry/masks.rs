@@ -323,16 +323,3 @@ proptest::proptest! {
         }
     }
 }
-
-#[test]
-#[ignore = "tells times"]
-fn a_large_mask_is_quick() {
-    for fine in [1, 4] {
-        let is_solid = |x: Vec2| x.map(|v| v.rem_euclid(58.0) - 29.0).norm() < 20.0;
-        let bytes = png(&DynamicImage::ImageLuma8(drawn([4096; 2], fine, is_solid)));
-        let begin = std::time::Instant::now();
-        let drawing = read(&bytes, &MaskOptions::default()).unwrap();
-        let discs = drawing.entities.iter().filter(|e| matches!(e.outline, Outline::Disc { .. })).count();
-        println!("{} shapes, {discs} discs: {:.2} s", drawing.entities.len(), begin.elapsed().as_secs_f64());
-    }
-}

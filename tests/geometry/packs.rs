@@ -139,13 +139,3 @@ fn a_generator_in_a_list_of_shapes_stands_for_its_discs() {
     assert_eq!(plain.len(), random_pack(&pack(0.6, 2e-3)).unwrap().len());
     assert!(plain.iter().all(|shape| matches!(shape, ShapeSpec::Disc(_))));
 }
-
-#[test]
-#[ignore = "tells times"]
-fn large_packs_are_quick() {
-    for (porosity, side) in [(0.6, 2.25e-2), (0.4, 1.85e-2), (0.6, 1.0e-1), (0.4, 8.2e-2)] {
-        let begin = std::time::Instant::now();
-        let discs = random_pack(&pack(porosity, side)).map(|discs| discs.len());
-        println!("{porosity} {discs:?} {:.2} s", begin.elapsed().as_secs_f64());
-    }
-}

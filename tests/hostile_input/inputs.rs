@@ -12,6 +12,7 @@ use meniscus::study::load::load as load_study;
 use meniscus::study::runs::runs;
 
 use crate::mutation::{Random, changed};
+use crate::places::without_place;
 
 /// Longest report of mistakes in bytes.
 const LONGEST_REPORT: usize = 200_000;
@@ -127,12 +128,14 @@ impl Bench {
             Kind::State => match restart::load(&self.root) {
                 Ok(saved) if saved.state.len() == 256 => Outcome::Accepted,
                 Ok(_) => Outcome::Wrong("a state that was never saved".to_owned()),
-                Err(_) => Outcome::Refused,
+                // Its checksum is that of the whole file: there is no place in it.
+                Err(error) if error.to_string().contains("state.bin has unexpected content: ") => Outcome::Refused,
+                Err(error) => Outcome::Wrong(format!("refused without its file: {error}")),
             },
-            Kind::Study => study(&path),
-            Kind::Start => start(&path),
-            Kind::Case => case(&path, &Overrides::default()),
-            Kind::Shapes => shapes(&path, input.unit),
+            Kind::Study => study(&path, &self.root),
+            Kind::Start => start(&path, &self.root),
+            Kind::Case => case(&path, &self.root),
+            Kind::Shapes => shapes(&path, input.unit, &self.root),
         };
         drop(back);
         outcome
@@ -153,7 +156,11 @@ impl Drop for Back<'_> {
     }
 }
 
-fn refused(error: InputError) -> Outcome {
+/// What becomes of a refusal, which is to name a file of the folder `root` and a place in it, and to be short.
+fn refused(error: InputError, root: &Path) -> Outcome {
+    if let Some(why) = without_place(&error, root) {
+        return Outcome::Wrong(why);
+    }
     let plain = error.render().len();
     let fancy = format!("{:?}", miette::Report::new(error)).len();
     if plain.max(fancy) > LONGEST_REPORT {
@@ -162,22 +169,30 @@ fn refused(error: InputError) -> Outcome {
     Outcome::Refused
 }
 
-fn study(path: &Path) -> Outcome {
+fn study(path: &Path, root: &Path) -> Outcome {
     let path = path.with_extension("toml");
     match load_study(&path) {
-        Err(error) => refused(error),
+        Err(error) => refused(error, root),
         Ok(study) => {
             let runs = runs(&study);
             match runs.first().map(|run| run.plan(&study)) {
-                Some(Err(error)) => refused(error),
+                Some(Err(error)) => refused(error, root),
                 _ => Outcome::Accepted,
             }
         }
     }
 }
 
+/// What a state of a network with values that do not fit is told by: these values, as their lines are not known any more.
+const OF_STATES: [&str; 4] = [
+    "expected format",
+    "expected the four numbers of a segment or the five of an arc",
+    "a meniscus borders on element",
+    "is the state of another geometry",
+];
+
 /// The state of a network, as the direct simulation of its geometry that begins with it reads it.
-fn start(path: &Path) -> Outcome {
+fn start(path: &Path, root: &Path) -> Outcome {
     let name = path.file_name().unwrap().to_string_lossy();
     let file = match &*name {
         "couple.json" => "couple.toml",
@@ -185,17 +200,31 @@ fn start(path: &Path) -> Outcome {
         _ => "breakthrough.toml",
     };
     let set = Overrides::parse(&[format!("sph.initial.network=\"states/{name}\"")]).unwrap();
-    case(&path.parent().unwrap().with_file_name(file), &set)
-}
-
-fn case(path: &Path, overrides: &Overrides) -> Outcome {
-    match case::load(path, overrides) {
-        Err(error) => refused(error),
-        Ok(loaded) => checked(&loaded, path),
+    let case = path.parent().unwrap().with_file_name(file);
+    match case::load(&case, &set) {
+        Err(error) => {
+            // The place of the mistake is that of the key; the message tells the line in the file. A message that is cut ends in dots.
+            let has_line = |text: &str| {
+                text.contains("line ") || text.ends_with("...") || OF_STATES.iter().any(|what| text.contains(what))
+            };
+            let messages: Vec<String> = error.mistakes.iter().map(|mistake| mistake.message.clone()).collect();
+            match messages.iter().find(|text| text.contains(&*name) && !has_line(text)) {
+                Some(text) => Outcome::Wrong(format!("refused without a line: {text}")),
+                None => refused(error, root),
+            }
+        }
+        Ok(loaded) => checked(&loaded, &case, root),
     }
 }
 
-fn checked(loaded: &Loaded, path: &Path) -> Outcome {
+fn case(path: &Path, root: &Path) -> Outcome {
+    match case::load(path, &Overrides::default()) {
+        Err(error) => refused(error, root),
+        Ok(loaded) => checked(&loaded, path, root),
+    }
+}
+
+fn checked(loaded: &Loaded, path: &Path, root: &Path) -> Outcome {
     let again = path.with_file_name("again.toml");
     std::fs::write(&again, &loaded.resolved).unwrap();
     match case::load(&again, &Overrides::default()) {
@@ -206,12 +235,12 @@ fn checked(loaded: &Loaded, path: &Path) -> Outcome {
         Ok(_) => {}
     }
     match loaded.refuse(setup::problems(&loaded.case)) {
-        Err(error) => refused(error),
+        Err(error) => refused(error, root),
         Ok(()) => Outcome::Accepted,
     }
 }
 
-fn shapes(path: &Path, unit: Option<&str>) -> Outcome {
+fn shapes(path: &Path, unit: Option<&str>, root: &Path) -> Outcome {
     let is_mask = path.extension().is_some_and(|ending| ending == "png" || ending == "tif");
     let options = if is_mask {
         Options { pixel_size: Some(1e-6), ..Options::default() }
@@ -219,7 +248,7 @@ fn shapes(path: &Path, unit: Option<&str>) -> Outcome {
         Options { unit: unit.map(str::to_owned), ..Options::default() }
     };
     let spec = match case::load_shapes(path, &options) {
-        Err(error) => return refused(error),
+        Err(error) => return refused(error, root),
         Ok(read) => read.spec,
     };
     if spec.shapes.len() > MOST_SHAPES {

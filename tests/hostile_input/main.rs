@@ -1,4 +1,5 @@
-//! Damaged and extreme inputs: each is read and checked, none is run. No panic, bounded memory, bounded time, and no result that is no number.
+//! Damaged and extreme inputs: each is read and checked, none is run. No panic, bounded memory, bounded time, no refusal without its file and a
+//! place in it, and no result that is no number.
 //!
 //! 2,000 inputs by default; `MENISCUS_FUZZ=1000000 cargo test --release --test hostile_input -- --nocapture` does a million. The inputs follow
 //! from their number alone: `MENISCUS_FUZZ_FIRST=4711 MENISCUS_FUZZ=1` does one again. The input at work lies in `target/hostile-input`, so
@@ -6,6 +7,7 @@
 
 mod inputs;
 mod mutation;
+mod places;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

@@ -1,11 +1,13 @@
 //! Cases with changed numbers that pass their check, run for a few steps with all their files: no panic, no hang, no number that is none in any
-//! output, and no more work per step than a bound that is counted.
+//! output, and no more work per step than a bound that is counted. Those that do not pass are refused with their file and a place in it.
 //!
 //! 500 cases by default; `MENISCUS_RUNS=5000 cargo test --release --test hostile_runs -- --nocapture` runs more. The cases follow from their
 //! number alone: `MENISCUS_RUNS_FIRST=4711 MENISCUS_RUNS=1` runs one again. Those that break a rule stay in `target/hostile-runs`.
 
 #[path = "../hostile_input/mutation.rs"]
 mod mutation;
+#[path = "../hostile_input/places.rs"]
+mod places;
 mod run;
 mod seeds;
 

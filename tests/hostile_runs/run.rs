@@ -4,13 +4,14 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use meniscus::case;
-use meniscus::input::Overrides;
+use meniscus::input::{InputError, Overrides};
 use meniscus::run::execute::{Job, Mode, execute};
 use meniscus::run::report::Status;
 use meniscus::run::setup;
 use meniscus::run::simulation::{Progress, Watcher};
 use meniscus::snapshot::{Field, Snapshot, Values};
 
+use crate::places::without_place;
 use crate::seeds::is_small;
 
 /// Steps of a run.
@@ -41,21 +42,30 @@ impl Watcher for Stopper<'_> {
     }
 }
 
+/// The ending of a refusal, which is to name the file and a place in it.
+fn refused(error: &InputError, folder: &Path) -> Ending {
+    without_place(error, folder).map_or(Ending::Refused, Ending::Bad)
+}
+
 /// Checks and runs `case.toml` in a folder.
 pub fn run(folder: &Path) -> Ending {
-    let Ok(loaded) = case::load(&folder.join("case.toml"), &Overrides::default()) else { return Ending::Refused };
+    let loaded = match case::load(&folder.join("case.toml"), &Overrides::default()) {
+        Ok(loaded) => loaded,
+        Err(error) => return refused(&error, folder),
+    };
     if !is_small(&loaded.case) {
         return Ending::TooLarge;
     }
-    if !setup::problems(&loaded.case).is_empty() {
-        return Ending::Refused;
+    if let Err(error) = loaded.refuse(setup::problems(&loaded.case)) {
+        return refused(&error, folder);
     }
     let mut solver = match setup::build(&loaded.case) {
         Ok(solver) => solver,
         Err(error) => {
-            let refusal = loaded.refuse(error.problems()).err().map_or(Vec::new(), |error| error.mistakes);
-            let has_place = !refusal.is_empty() && refusal.iter().all(|mistake| mistake.place.is_some());
-            return if has_place { Ending::Refused } else { Ending::Bad(format!("refused without a place: {error}")) };
+            return match loaded.refuse(error.problems()) {
+                Err(refusal) => refused(&refusal, folder),
+                Ok(()) => Ending::Bad(format!("refused without a place: {error}")),
+            };
         }
     };
     let flag = AtomicBool::new(false);

@@ -357,14 +357,14 @@ proptest! {
 }
 
 #[test]
-fn a_line_of_a_hundred_thousand_mistakes_is_told_soon_and_shortly() {
+fn a_line_of_a_hundred_thousand_mistakes_is_told_shortly() {
     for letter in ["(", "-", "[", "0 ", "= "] {
-        let clock = std::time::Instant::now();
         let error =
             load_case_text(&format!("format = 1\n{}\n", letter.repeat(100_000)), &Overrides::default()).unwrap_err();
+        // The first one of the line, up to an open bracket: what follows is read but not explained.
+        assert_eq!(error.mistakes.len(), 1, "{letter}");
         let report = format!("{:?}", miette::Report::new(error));
         assert!(report.len() < 50_000, "{letter}: a report of {} bytes", report.len());
-        assert!(clock.elapsed() < std::time::Duration::from_secs(5), "{letter}: {:?}", clock.elapsed());
     }
 }
 

@@ -55,16 +55,28 @@ fn measured(folder: &Path, degrees: f64) -> (Value, Value) {
 fn menisci_have_their_pressure_and_their_angle_within_the_bars_from_0_to_180_degrees() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("slit.toml"), SLIT).unwrap();
-    for degrees in [0.0_f64, 2.0, 5.0, 10.0, 60.0, 170.0, 175.0, 178.0, 180.0] {
+    // Degrees, and what pressure (relative) and angle (degrees) may be off: close to 0 and 180 the fluid at the wall is thinner than a spacing.
+    for (degrees, of_pressure, of_angle) in [
+        (0.0_f64, 5e-3, 10.0),
+        (2.0, 5e-3, 7.0),
+        (5.0, 5e-3, 3.5),
+        (10.0, 2.3e-3, 0.4),
+        (60.0, 1e-3, 0.25),
+        (170.0, 2.3e-3, 0.4),
+        (175.0, 5e-3, 3.5),
+        (178.0, 5e-3, 7.0),
+        (180.0, 5e-3, 10.0),
+    ] {
         let (measures, warnings) = measured(folder.path(), degrees);
         let value = |name: &str, key: &str| measures[name][key].as_f64().unwrap_or(f64::NAN);
         let exact = TENSION * degrees.to_radians().cos() / HALF;
         let pressure = value("capillary-pressure-Pa", "value");
-        assert!((pressure / exact - 1.0).abs() < 5e-3, "{degrees} degrees: {pressure} Pa, exact {exact}");
+        assert!((pressure / exact - 1.0).abs() < of_pressure, "{degrees} degrees: {pressure} Pa, exact {exact}");
         let off = (pressure - exact).abs() / value("capillary-pressure-Pa", "uncertainty");
-        assert!(off < 3.0, "{degrees} degrees: {pressure} Pa is {off} bars off");
-        let off = (value("contact-angle-deg", "value") - degrees).abs() / value("contact-angle-deg", "uncertainty");
-        assert!(off < 2.0, "{degrees} degrees: {} is {off} bars off", measures["contact-angle-deg"]);
+        assert!(off < 2.0, "{degrees} degrees: {pressure} Pa is {off} bars off");
+        let off = (value("contact-angle-deg", "value") - degrees).abs();
+        let within = off < of_angle && off < value("contact-angle-deg", "uncertainty");
+        assert!(within, "{degrees} degrees: {}", measures["contact-angle-deg"]);
         let is_told = warnings.to_string().contains("complete wetting or drying");
         assert_eq!(is_told, degrees <= 10.0 || degrees >= 170.0, "{degrees}: {warnings}");
     }

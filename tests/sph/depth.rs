@@ -69,19 +69,19 @@ fn a_flat_drop_has_the_pressure_of_both_curvatures() {
         let model = format!("sph.wetting.young.contact-angle-deg={angle}");
         let depth = format!("geometry.depth={depth:e}");
         let found = at_the_end("laplace-drop", &[&model, &depth, "sph.spacing=4.0e-5"], 5e-3)["laplace-jump-ratio"];
-        assert!((found - 1.0).abs() < 0.01, "{angle}: {found}");
+        assert!((found - 1.0).abs() < 5e-4, "{angle}: {found}");
     }
 }
 
 /// [ParkHomsy1984]
 #[test]
 fn a_flat_bubble_has_the_pressure_of_the_exact_surface_of_revolution() {
-    // Radii of the contact line of 2 and 10 depths, as in studies/validation/flat-bubble.toml.
-    for (angle, depth, exact) in [(30.0, 1.816412e-4, 233.471), (60.0, 3.964123e-5, 552.356)] {
+    // Radii of the contact line of 2 and 10 depths, as in studies/validation/flat-bubble.toml. The formula is made for flat bubbles.
+    for (angle, depth, exact, tolerance) in [(30.0, 1.816412e-4, 233.471, 2.3e-3), (60.0, 3.964123e-5, 552.356, 3e-4)] {
         let (model, depth) =
             (format!("sph.wetting.young.contact-angle-deg={angle}"), format!("geometry.depth={depth:e}"));
         let found = at_the_end("flat-bubble", &[&model, &depth], 2e-3)["capillary-pressure-Pa"];
-        assert!((found / exact - 1.0).abs() < 0.01, "{angle}: {found}");
+        assert!((found / exact - 1.0).abs() < tolerance, "{angle}: {found}");
     }
 }
 
@@ -93,7 +93,7 @@ fn a_throat_is_entered_at_the_pressure_of_the_chip() {
         let start = format!("sph.initial.wetting[0].rectangle.center=[{place:e}, 0.0]");
         let set = [model.as_str(), &start, "geometry.depth=5.0e-4", "sph.spacing=6.25e-5"];
         let found = at_the_end("throat-entry", &set, 0.02);
-        assert!((found["entry-pressure-ratio"] - 1.0).abs() < 0.01, "{angle}: {}", found["entry-pressure-ratio"]);
+        assert!((found["entry-pressure-ratio"] - 1.0).abs() < 1e-3, "{angle}: {}", found["entry-pressure-ratio"]);
         let transverse = Depth::new(5e-4, f64::to_radians(angle), [f64::to_radians(angle); 2]).curvature(0.0);
         assert!(found["entry-pressure-Pa"] > 0.025 * transverse);
     }

@@ -33,12 +33,13 @@ const WIDE: &str = "sph.initial.wetting=[{ rectangle = { center = [5.0e-4, 2.0e-
 #[test]
 fn layers_between_plates_have_the_cubes_of_their_shares() {
     let found = measures(&COARSE);
-    for (name, exact) in [
-        ("permeability-m2", 1e-6 / 12.0),
-        ("relative-permeability-wetting", 0.064),
-        ("relative-permeability-non-wetting", 0.216),
+    // The error falls with the square of the particles across: 8, 12 and 20.
+    for (name, exact, tolerance) in [
+        ("permeability-m2", 1e-6 / 12.0, 0.015),
+        ("relative-permeability-wetting", 0.064, 0.05),
+        ("relative-permeability-non-wetting", 0.216, 0.026),
     ] {
-        assert!((found(name) / exact - 1.0).abs() < 0.05, "{name}: {}, not {exact}", found(name));
+        assert!((found(name) / exact - 1.0).abs() < tolerance, "{name}: {}, not {exact}", found(name));
     }
     assert!((found("saturation") - 0.4).abs() < 1e-12, "{}", found("saturation"));
     assert!(found("unsteady-share") < 1e-3, "{}", found("unsteady-share"));
@@ -58,12 +59,12 @@ fn layers_in_a_chip_have_the_relative_permeability_of_ducts() {
         let ratio = 1e-3 / depth;
         let profile = profile_factor(ratio);
         let layer = |share: f64| share * averaged(share * ratio, profile) / averaged(ratio, profile);
-        for (name, exact) in [
-            ("permeability-m2", depth * depth / 12.0 * duct_factor(ratio)),
-            ("relative-permeability-wetting", layer(0.4)),
-            ("relative-permeability-non-wetting", layer(0.6)),
+        for (name, exact, tolerance) in [
+            ("permeability-m2", depth * depth / 12.0 * duct_factor(ratio), 0.025),
+            ("relative-permeability-wetting", layer(0.4), 0.05),
+            ("relative-permeability-non-wetting", layer(0.6), 0.024),
         ] {
-            assert!((found(name) / exact - 1.0).abs() < 0.05, "{depth} {name}: {}, not {exact}", found(name));
+            assert!((found(name) / exact - 1.0).abs() < tolerance, "{depth} {name}: {}, not {exact}", found(name));
         }
     }
 }

