@@ -220,9 +220,9 @@ fn every_function_on_the_page_of_equations_is_in_its_file() {
                     continue;
                 }
                 let source = text(&piece);
-                for part in names.drain(..).flat_map(|name| name.split("::").map(str::to_owned).collect::<Vec<_>>()) {
-                    let defined = defines(&source, &part);
-                    assert!(defined, "{piece} defines no {part}");
+                for name in names.drain(..) {
+                    let function = name.rsplit("::").next().unwrap_or_default();
+                    assert!(defines(&source, function), "{piece} defines no {name}");
                     count += 1;
                 }
             }
@@ -235,7 +235,8 @@ fn every_function_on_the_page_of_equations_is_in_its_file() {
 fn every_test_on_the_page_of_equations_exists() {
     let sources = sources();
     let page = page("docs/equations.md");
-    let sentences = page.code().into_iter().filter(|code| code.matches('_').count() >= 3 && !code.contains(['/', ' ']));
+    let sentences =
+        page.code().into_iter().filter(|code| code.matches('_').count() >= 3 && !code.contains(['/', ' ', ':']));
     let tests: Vec<String> = sentences.collect();
     assert!(tests.len() > 20, "only {} tests", tests.len());
     for test in tests {

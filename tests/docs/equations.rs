@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::generated::{as_code, compare, filled, table};
+use crate::generated::{as_code, compare, filled, first_sentence, table};
 use crate::page::{files, root, text};
 
 /// A paper, and the equations or sections cited.
@@ -89,12 +89,6 @@ fn declared(line: &str) -> Option<&str> {
         Some(rest) => rest.split(|c: char| !c.is_alphanumeric() && c != '_').next(),
         None => type_of_methods(line),
     }
-}
-
-/// The first sentence of a comment, without links to items.
-fn first_sentence(comment: &str) -> String {
-    let sentence = comment.split(". ").next().unwrap_or_default();
-    sentence.replace("[`", "`").replace("`]", "`").replace('|', "\\|").trim().trim_end_matches('.').to_owned()
 }
 
 /// The items of a file that cite a paper.

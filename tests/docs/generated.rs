@@ -41,3 +41,11 @@ pub fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> String {
 pub fn as_code(names: &[String]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
+
+/// The first sentence of a comment, without links to items and without its period.
+pub fn first_sentence(comment: &str) -> String {
+    let is_end = |at: &usize| comment[at + 2..].starts_with(|c: char| !c.is_ascii_digit());
+    let end = comment.match_indices(". ").map(|(at, _)| at).find(is_end);
+    let sentence = end.map_or(comment, |end| &comment[..end]);
+    sentence.replace("[`", "`").replace("`]", "`").replace('|', "\\|").trim().trim_end_matches('.').to_owned()
+}

@@ -13,7 +13,7 @@ use meniscus::snapshot::Field;
 use meniscus::solver::Solver;
 use meniscus::table::Column;
 
-use crate::generated::{as_code, compare, filled, table};
+use crate::generated::{as_code, compare, filled, first_sentence, table};
 use crate::keys::followed;
 use crate::page::{Page, code, files, page, root, text};
 
@@ -339,9 +339,8 @@ fn row_of_constant(file: &str, name: &str) -> [String; 4] {
     let at = at.unwrap_or_else(|| panic!("{file} has no {name}"));
     let comment = lines[..at].iter().rev().map_while(|line| line.strip_prefix("/// ")).collect::<Vec<_>>();
     let comment = comment.into_iter().rev().collect::<Vec<_>>().join(" ");
-    let meaning = comment.split(". ").next().unwrap_or_default().trim_end_matches('.').to_owned();
     let value = lines[at].split("= ").nth(1).unwrap_or_default().trim_end_matches(';');
-    [as_code(&[name.to_owned()]), as_code(&[value.to_owned()]), as_code(&[file.to_owned()]), meaning]
+    [as_code(&[name.to_owned()]), as_code(&[value.to_owned()]), as_code(&[file.to_owned()]), first_sentence(&comment)]
 }
 
 #[test]
