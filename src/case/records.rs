@@ -194,7 +194,7 @@ pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, out
         if raw.network.is_none() {
             checker.refuse(
                 "time.steady",
-                "only [sph] tells when it is steady",
+                "only [sph] detects a steady state",
                 "leave this out; the run ends at time.end",
             );
         }

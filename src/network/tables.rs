@@ -26,8 +26,8 @@ pub(super) fn flags(name: &'static str, values: impl IntoIterator<Item = bool>) 
     Column { name, cells: Cells::Flags(values.into_iter().collect()) }
 }
 
-pub(super) fn places(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
-    Column { name, cells: Cells::Places(values.into_iter().collect()) }
+pub(super) fn indices(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
+    Column { name, cells: Cells::Indices(values.into_iter().collect()) }
 }
 
 pub(super) fn words(name: &'static str, values: impl IntoIterator<Item = &'static str>) -> Column {
@@ -139,7 +139,7 @@ fn state_columns(config: &Configuration, invading: FluidPhase, states: &[PoreSta
         |value: fn(&Invasion) -> f64| states.iter().map(move |state| state.invasion.as_ref().map_or(f64::NAN, value));
     [
         words("phase", states.iter().map(|state| state.fluid.name())),
-        places("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
+        indices("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
         flags("trapped", states.iter().map(|state| state.is_trapped)),
         numbers(
             "invasion_capillary_pressure_Pa",
@@ -179,7 +179,7 @@ fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
         columns.push(numbers("entry_pressure_Pa", config.pores.throats.iter().map(|&throat| pressures[throat])));
     }
     if let Some(occupation) = occupation {
-        columns.push(places("sequence", sequences(config, occupation)));
+        columns.push(indices("sequence", sequences(config, occupation)));
     }
     Table { name: "throats", columns }
 }
@@ -227,7 +227,7 @@ pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
             words("process", all().map(|row| process(row.half_cycle))),
             counts("sequence", all().map(|row| row.sequence)),
             words("event", all().map(|row| row.event.map_or(BEGINNING, |entry| entry.kind.name()))),
-            places("throat", all().map(throat)),
+            indices("throat", all().map(throat)),
             numbers("meniscus_pressure_Pa", pressures(|entry| entry.curvature)),
             numbers("capillary_pressure_Pa", pressures(|entry| entry.applied)),
             numbers("saturation", all().map(|row| row.saturation[0])),

@@ -54,7 +54,7 @@ pub fn run(folder: &Path) -> Ending {
         Ok(solver) => solver,
         Err(error) => {
             let refusal = loaded.refuse(error.problems()).err().map_or(Vec::new(), |error| error.mistakes);
-            let has_place = !refusal.is_empty() && refusal.iter().all(|mistake| mistake.place.is_some());
+            let has_place = !refusal.is_empty() && refusal.iter().all(|mistake| mistake.location.is_some());
             return if has_place { Ending::Refused } else { Ending::Bad(format!("refused without a place: {error}")) };
         }
     };

@@ -1,7 +1,7 @@
 //! The force of the other fluid on a drop, where it is known exactly: of given fields, and of a flow that has come to rest.
 
 use crate::support::flow::{flow, solver};
-use meniscus::benchmarks::asked_for;
+use meniscus::benchmarks::requested_groups;
 use meniscus::case::MeasureSet;
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
@@ -127,7 +127,7 @@ fn at_rest_the_drag_on_a_layer_is_what_its_wall_and_its_weight_leave() {
 /// The columns of `[sph.measure.moving-drop]` at each of `records` until `end` (s).
 fn moving_drop(mut flow: Flow, records: u32, end: f64) -> Vec<Vec<f64>> {
     let measured = MeasureSet { moving_drop: true, ..MeasureSet::default() };
-    let [group] = asked_for(&measured)[..] else { panic!("one group") };
+    let [group] = requested_groups(&measured)[..] else { panic!("one group") };
     let mut row = |time: f64| {
         while flow.state.time < time {
             flow.step(time).unwrap();
