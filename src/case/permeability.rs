@@ -16,7 +16,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
     if sph.non_wetting.is_some() {
         checker.refuse(
             "sph.phases.non-wetting",
-            "a permeability is that of one fluid, and there are two: their interface moves or resists the flow",
+            "a permeability is measured with one fluid, and there are two: their interface moves or resists the flow",
             "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] with a frozen interface",
         );
     }

@@ -141,7 +141,7 @@ fn every(
     if checker.is_given(&path_of_other, other.as_ref()) {
         checker.refuse(
             path_of_other,
-            format!("the records of this case are not counted by `{}`", clock.other),
+            format!("the records of this case cannot be scheduled by `{}`", clock.other),
             format!("write {} = ... # {}", clock.key, clock.what),
         );
     }

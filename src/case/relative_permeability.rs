@@ -20,7 +20,7 @@ pub(super) fn relative_permeability(checker: &mut Checker, model: Option<&Model>
     if sph.non_wetting.is_none() {
         checker.refuse(
             TABLE,
-            "a relative permeability is that of two phases, and there is one fluid",
+            "a relative permeability needs two phases, and there is one fluid",
             "add [sph.phases.non-wetting], [sph.interface] and [[sph.initial.wetting]], or measure [sph.measure.permeability]",
         );
     }

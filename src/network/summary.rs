@@ -113,7 +113,7 @@ struct Definitions {
 
 const DEFINITIONS: Definitions = Definitions {
     pore: "a local maximum of the distance to the nearest wall; its inscribed radius is that distance",
-    throat: "a saddle of the distance to the nearest wall; its width is twice that distance, its chord joins both contacts and parts the pores",
+    throat: "a saddle of the distance to the nearest wall; its width is twice that distance, its chord joins both contacts and separates the pores",
     persistence: "a throat is dissolved where its half width exceeds this share of the smaller inscribed radius",
     area: "of the pore region between walls and chords, in closed form; a volume per depth",
     length: "from pore center to pore center through the middle of the throat",

@@ -67,9 +67,7 @@ pub enum Impossible {
     #[error("it is a burst, which is verified in its throat")]
     Burst,
     /// Corner films of another angle.
-    #[error(
-        "its walls have another contact angle than those of which the network takes the films in the corners of floor and lid"
-    )]
+    #[error("its walls have a contact angle other than that of the corner films of the network")]
     Films,
     /// Another throat.
     #[error("the subdomain has a throat of {0} m instead of this one")]

@@ -139,7 +139,7 @@ fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
     if checker.is_given("network.stop.injected", given.injected.as_ref()) && raw.dynamic.is_none() {
         checker.refuse(
             "network.stop.injected",
-            "injected volumes are those of a displacement in time, and this one is quasi-static",
+            "injected volumes need a displacement in time, and this one is quasi-static",
             "end at a saturation, or add [network.dynamic]",
         );
     }
