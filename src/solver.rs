@@ -118,7 +118,7 @@ pub struct Statistics {
 #[derive(Debug, thiserror::Error)]
 pub enum SolverError {
     /// A value that is not finite, or an unphysically large speed.
-    #[error("{what} at time {time:.6e} s (step {step}), at ({:.4e}, {:.4e}) m", place.x, place.y)]
+    #[error("{what} at time {time:.6e} s (step {step}), at ({:.4e}, {:.4e}) m", position.x, position.y)]
     BlowUp {
         /// What went wrong, with the value.
         what: String,
@@ -127,12 +127,12 @@ pub enum SolverError {
         /// Step.
         step: u64,
         /// Position in m.
-        place: Vec2,
+        position: Vec2,
     },
     /// The time step is far below the static limits.
     #[error(
-        "the time step fell to {dt:.3e} s, below {smallest:.3e} s, ruled by {limit}, at time {time:.6e} s (step {step}), \
-         fastest particle at ({:.4e}, {:.4e}) m", place.x, place.y
+        "the time step fell to {dt:.3e} s, below {smallest:.3e} s, limited by {limit}, at time {time:.6e} s (step {step}), \
+         fastest particle at ({:.4e}, {:.4e}) m", position.x, position.y
     )]
     TimeStep {
         /// The time step in s.
@@ -146,12 +146,11 @@ pub enum SolverError {
         /// Step.
         step: u64,
         /// Position of the fastest particle in m.
-        place: Vec2,
+        position: Vec2,
     },
     /// A flow rate is prescribed at a side through which nothing can flow.
     #[error(
-        "no pressure drives the flow that is asked for through the side `{side}` at time {time:.6e} s (step {step}): open a way \
-         through the solids along it, wide enough for a few particles, or leave the flow out"
+        "no pressure can drive the requested flow through the side `{side}` at time {time:.6e} s (step {step}): open a path through the solids along it, wide enough for a few particles, or leave the flow out"
     )]
     Blocked {
         /// Name of the side.
@@ -164,7 +163,7 @@ pub enum SolverError {
     /// A linear or nonlinear solve did not reach its tolerance.
     #[error(
         "{system} did not converge at time {time:.6e} s (step {step}): relative residual {residual:.3e} after {iterations} \
-         iterations, {tolerance:.1e} asked for{}", way_out(*residual)
+         iterations, {tolerance:.1e} requested{}", advice(*residual)
     )]
     NotConverged {
         /// Name of the system.
@@ -183,7 +182,7 @@ pub enum SolverError {
 }
 
 /// The advice after a solve that stopped at the relative `residual`.
-fn way_out(residual: f64) -> &'static str {
+fn advice(residual: f64) -> &'static str {
     // A solve that fails for another reason stops far above rounding.
     const ROUNDING: f64 = 1e-9;
     if residual < ROUNDING { "; rounding allows no less, so ask for a larger tolerance" } else { "" }

@@ -8,7 +8,7 @@ pub enum Cells {
     /// Integers.
     Counts(Vec<usize>),
     /// Integers that may be absent.
-    Places(Vec<Option<usize>>),
+    Indices(Vec<Option<usize>>),
     /// Booleans, written `True` and `False`.
     Flags(Vec<bool>),
     /// Strings.
@@ -21,7 +21,7 @@ impl Cells {
         match self {
             Self::Numbers(values) => values.len(),
             Self::Counts(values) => values.len(),
-            Self::Places(values) => values.len(),
+            Self::Indices(values) => values.len(),
             Self::Flags(values) => values.len(),
             Self::Words(values) => values.len(),
         }

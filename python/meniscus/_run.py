@@ -34,7 +34,7 @@ def run(
             looked for in the working folder; the built-in case where there is none.
         set: values of keys in place of those of the case, by key, such as ``{"sph.spacing": 2e-5, "expect": []}``.
         out: folder for the files that the command line writes, new or empty. Nothing is written where there is none.
-        resume: whether to go on with the run in ``out``.
+        resume: whether to continue the run in ``out``.
         progress: a function that is called with the share of the run that is done, 0 to 1, and a text; or a bar of tqdm; or True for a new bar.
             What the function raises stops the run.
         threads: number of threads; all cores where there is none. The result does not depend on it.
@@ -98,7 +98,7 @@ def network(
         outlet: side that the defending phase leaves through.
         process: ``drainage`` (default), ``imbibition`` or ``cycle``.
         cycles: number of cycles of ``process="cycle"``.
-        trapping: whether a defending region without a way to the outlet is trapped (default yes).
+        trapping: whether a defending region without a path to the outlet is trapped (default yes).
         periodic: sides that are joined: ``x``, ``y`` or ``xy``.
         depth: distance of floor and lid in m; that of the file where there is none, or everything is per meter of depth.
         persistence: ratio above which two maxima of the wall distance are one pore, 0.5 to 1.
@@ -106,12 +106,12 @@ def network(
         scale: length of the drawing unit in m, in place of ``unit``.
         window: corners of the domain in m: x0, y0, x1, y1.
         layers: names of the layers that are read; all where there is none.
-        join_within: distance of ends of lines of a DXF drawing that meet, in units of the drawing.
+        join_within: gap below which the ends of lines in a DXF drawing are joined, in units of the drawing.
         threshold: gray value between solid and pore of an image, 0 (black) to 1 (white).
         pixel_size: side of a pixel of an image in m.
         invert: whether what is drawn is the pore.
         recognize_circles: whether polygons whose vertices lie on a circle become discs (default yes).
-        smooth_below_deg: vertices that turn by less than this many degrees become arcs (default 20); 0: none.
+        smooth_below_deg: vertices with a turning angle below this many degrees become arcs (default 20); 0: none.
         columns: columns of x, y and radius in a list of discs, from 0.
         separator: the character between the columns of a list of discs.
         diameters: whether the third column of a list of discs holds diameters.

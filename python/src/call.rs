@@ -19,7 +19,7 @@ const POLLING_INTERVAL: Duration = Duration::from_millis(20);
 const POLLS_PER_REPORT: u32 = 5;
 
 /// Progress of the work: the fraction done, and a text.
-type Standing = Mutex<Option<(f64, String)>>;
+type LatestProgress = Mutex<Option<(f64, String)>>;
 
 /// Runs in progress in this process, by token.
 static GOING_ON: Mutex<Vec<(String, Arc<AtomicBool>)>> = Mutex::new(Vec::new());
@@ -38,16 +38,16 @@ pub(crate) struct Call {
 pub(crate) struct Work<'a> {
     /// Set when the work is to stop.
     pub(crate) interrupt: &'a AtomicBool,
-    standing: &'a Standing,
+    pending: &'a LatestProgress,
 }
 
 impl Work<'_> {
     /// Reports progress.
     pub(crate) fn tell(&self, fraction: f64, text: impl FnOnce() -> String) {
-        let mut standing = self.standing.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut pending = self.pending.lock().unwrap_or_else(PoisonError::into_inner);
         // The text is only made if somebody listens.
-        if standing.is_none() {
-            *standing = Some((fraction, text()));
+        if pending.is_none() {
+            *pending = Some((fraction, text()));
         }
     }
 
@@ -98,9 +98,9 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
     let threads = threads.or_else(requested).map_or_else(cores, |threads: usize| threads.min(cores()));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(format!("cannot start {threads} threads: {error}")))?;
-    let (standing, registered) = (Standing::default(), Registered::new(token));
+    let (pending, registered) = (LatestProgress::default(), Registered::new(token));
     let (done, is_done) = mpsc::channel();
-    let work_of = Work { interrupt: &registered.0, standing: &standing };
+    let work_of = Work { interrupt: &registered.0, pending: &pending };
     let (found, raised) = py.detach(|| {
         let is_done = is_done;
         pool.in_place_scope(|scope| {
@@ -120,7 +120,7 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
                 polls += 1;
                 let is_due = polls % POLLS_PER_REPORT == 0;
                 if raised.is_none()
-                    && let Err(error) = Python::attach(|py| poll(py, progress.as_ref().filter(|_| is_due), &standing))
+                    && let Err(error) = Python::attach(|py| poll(py, progress.as_ref().filter(|_| is_due), &pending))
                 {
                     registered.0.store(true, Ordering::Relaxed);
                     raised = Some(error);
@@ -138,10 +138,10 @@ pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<
 }
 
 /// Lets Python handle signals, and reports progress.
-fn poll(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
+fn poll(py: Python<'_>, progress: Option<&Py<PyAny>>, pending: &LatestProgress) -> PyResult<()> {
     py.check_signals()?;
     if let Some(progress) = progress {
-        let latest = standing.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let latest = pending.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some((fraction, text)) = latest {
             progress.call1(py, (fraction, text))?;
         }

@@ -111,7 +111,7 @@ fn table(table: &Table) -> Data {
     let column = |cells: &Cells| match cells {
         Cells::Numbers(values) => Data::Floats(values.iter().map(number).collect(), 1),
         Cells::Counts(values) => Data::Integers(values.iter().map(|&value| value as i64).collect(), 1),
-        Cells::Places(values) => {
+        Cells::Indices(values) => {
             Data::Integers(values.iter().map(|value| value.map_or(-1, |index| index as i64)).collect(), 1)
         }
         Cells::Flags(values) => Data::Flags(values.clone()),

@@ -34,7 +34,7 @@ impl From<InputError> for Refused {
 /// A mistake as Python shows it.
 struct PythonMistake {
     file: Option<String>,
-    place: Option<(usize, usize)>,
+    location: Option<(usize, usize)>,
     key: Option<String>,
     message: String,
     help: String,
@@ -48,15 +48,15 @@ impl PythonMistake {
         let key = set.map(|(key, _)| key.to_owned());
         let in_dict = text.filter(|_| key.is_none() && mistake.name == DICT);
         if key.is_some() || in_dict.is_some() {
-            let found = in_dict.zip(mistake.place).and_then(|(text, (line, _))| key_at(text, line));
-            return Self { file: None, place: None, key: key.or(found), message, help };
+            let found = in_dict.zip(mistake.location).and_then(|(text, (line, _))| key_at(text, line));
+            return Self { file: None, location: None, key: key.or(found), message, help };
         }
-        Self { file: Some(mistake.name.clone()), place: mistake.place, key: None, message, help }
+        Self { file: Some(mistake.name.clone()), location: mistake.location, key: None, message, help }
     }
 
     /// As the program prints it: the location, the message, and below it the remedy.
     fn text(&self) -> String {
-        let location = match (&self.file, self.place, &self.key) {
+        let location = match (&self.file, self.location, &self.key) {
             (Some(file), Some((line, column)), _) => format!("{file}:{line}:{column}: "),
             (Some(file), None, _) => format!("{file}: "),
             (None, _, Some(key)) => format!("{key}: "),
@@ -69,8 +69,8 @@ impl PythonMistake {
     fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let dict = PyDict::new(py);
         dict.set_item("file", self.file)?;
-        dict.set_item("line", self.place.map(|location| location.0))?;
-        dict.set_item("column", self.place.map(|location| location.1))?;
+        dict.set_item("line", self.location.map(|location| location.0))?;
+        dict.set_item("column", self.location.map(|location| location.1))?;
         dict.set_item("key", self.key)?;
         dict.set_item("message", self.message)?;
         dict.set_item("help", self.help)?;
@@ -89,7 +89,7 @@ impl Refused {
             Self::Case(Refusal::Options(problems)) => {
                 let shown = |problem: &meniscus::input::Problem| PythonMistake {
                     file: None,
-                    place: None,
+                    location: None,
                     key: Some(parameter(&problem.path)).filter(|key| !key.is_empty()),
                     message: problem.message.clone(),
                     help: problem.help.clone(),
@@ -99,7 +99,7 @@ impl Refused {
             Self::Case(Refusal::Setup(text)) => {
                 let (message, help) = text.split_once("; ").unwrap_or((&text, ""));
                 let (message, help) = (message.to_owned(), help.to_owned());
-                case_error(py, vec![PythonMistake { file: None, place: None, key: None, message, help }])
+                case_error(py, vec![PythonMistake { file: None, location: None, key: None, message, help }])
             }
             Self::Dict(error, text) => case_error(py, of_input(&error, Some(&text))),
             Self::Folder(text) => class(py, "FolderError").and_then(|class| class.call1((text,))),

@@ -12,7 +12,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let [a, b, ..] = s.discs else { return vec![] };
     let axis = (b.center - a.center).normalize();
     let middle = 0.5 * (a.center + b.center);
-    let good = || s.seen.lines_with_angle();
+    let good = || s.observed.lines_with_angle();
     let filling = |disc: DiscOf, axis: Vec2| {
         let near = move |x: Vec2| ((x - disc.center).norm() - disc.radius).abs() < 0.1 * disc.radius;
         good().filter(move |l| near(l.position)).map(move |l| (l.position - disc.center).angle(&axis).to_degrees())
@@ -20,12 +20,12 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let angles: Vec<f64> = filling(*a, axis).chain(filling(*b, -axis)).collect();
     let mean = angles.iter().sum::<f64>() / angles.len() as f64;
     let across = |x: &Vec2| (x - middle).perp(&axis).abs();
-    let contour = || s.seen.interface.iter().flat_map(|line| &line.points);
+    let contour = || s.observed.interface.iter().flat_map(|line| &line.points);
     let neck = contour().map(across).fold(f64::INFINITY, f64::min);
-    let exact = disc_pair(s).and_then(|pair| pair.bridge(s.seen.areas.wetting));
+    let exact = disc_pair(s).and_then(|pair| pair.bridge(s.observed.areas.wetting));
     let ratio = |found: f64, exact: Option<f64>| exact.map_or(f64::NAN, |exact| found / exact);
     let tension = s.flow.config.method.tension;
-    let pressure = s.seen.capillary_pressure.value;
+    let pressure = s.observed.capillary_pressure.value;
     vec![
         measure(
             "filling-angle-deg",

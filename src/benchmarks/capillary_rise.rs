@@ -15,7 +15,7 @@ pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let apex = entry(flow).map_or(f64::NAN, |side| {
         let points = observation.interface.iter().flat_map(|line| &line.points);
-        points.map(|x: &Vec2| -side.beyond(*x)).fold(f64::INFINITY, f64::min)
+        points.map(|x: &Vec2| -side.overshoot(*x)).fold(f64::INFINITY, f64::min)
     });
     vec![("apex_m", apex)]
 }

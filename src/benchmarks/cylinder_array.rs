@@ -27,7 +27,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
                   velocity averaged over the whole cell, at the end";
     let method_of_mean = "velocity along the force averaged over the whole cell, solids at rest, at the end";
     let method_of_permeability = "viscosity times mean velocity over force per volume";
-    let pull = force.norm() * s.seen.areas.wetting;
+    let pull = force.norm() * s.observed.areas.wetting;
     let unsteady = acceleration(s) / pull;
     let method_of_unsteady = "magnitude of the rate of the momentum, across the force too, between the last two records over the force on the \
                               fluid; the drag of a flow that still gathers speed is too high";

@@ -45,14 +45,14 @@ pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<Dr
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.config.method.wetting) else { return vec![] };
-    let ends: Vec<_> = s.seen.lines_with_angle().collect();
+    let ends: Vec<_> = s.observed.lines_with_angle().collect();
     let half = match ends[..] {
         [a, b] => 0.5 * (a.position - disc.center).angle(&(b.position - disc.center)),
         _ => f64::NAN,
     };
-    let contour = s.seen.interface.iter().flat_map(|line| &line.points);
+    let contour = s.observed.interface.iter().flat_map(|line| &line.points);
     let height = contour.map(|x| (x - disc.center).norm() - disc.radius).fold(f64::NAN, f64::max);
-    let exact = drop_on_disc(s.seen.areas.wetting, wetting.static_angle(), disc.radius);
+    let exact = drop_on_disc(s.observed.areas.wetting, wetting.static_angle(), disc.radius);
     let ratio = |found: f64, exact: Option<f64>| exact.map_or(f64::NAN, |exact| found / exact);
     vec![
         measure(

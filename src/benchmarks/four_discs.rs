@@ -8,14 +8,15 @@ use crate::sph::measures::{Group, Subject, measure};
 pub(crate) const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let found: Vec<f64> = s.seen.lines_with_angle().map(|line| line.curvature).collect();
+    let found: Vec<f64> = s.observed.lines_with_angle().map(|line| line.curvature).collect();
     let mean = found.iter().sum::<f64>() / found.len() as f64;
-    let of_fits = s.seen.lines_with_angle().map(|line| line.curvature_uncertainty).sum::<f64>() / found.len() as f64;
+    let of_fits =
+        s.observed.lines_with_angle().map(|line| line.curvature_uncertainty).sum::<f64>() / found.len() as f64;
     let spread = (found.iter().map(|k| (k - mean).powi(2)).sum::<f64>() / found.len() as f64).sqrt();
     let error = spread.hypot(of_fits);
-    let exact = disc_pair(s).and_then(|pair| pair.liquid_between_four(s.seen.areas.wetting));
+    let exact = disc_pair(s).and_then(|pair| pair.liquid_between_four(s.observed.areas.wetting));
     let over_exact = |curvature: f64| exact.map_or(f64::NAN, |exact| curvature / exact.curvature);
-    let (pressure, tension) = (s.seen.capillary_pressure, s.flow.config.method.tension);
+    let (pressure, tension) = (s.observed.capillary_pressure, s.flow.config.method.tension);
     let pressure_error = pressure.uncertainty(tension, s.flow.config.method.kernel.h);
     vec![
         measure(

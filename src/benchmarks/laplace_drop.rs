@@ -17,7 +17,7 @@ const LAST: f64 = 0.1;
 fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, fluids) = (s.flow, s.flow.state.particles.fluids);
     let colors = sharp_color(flow);
-    let radius = (s.seen.areas.wetting / std::f64::consts::PI).sqrt();
+    let radius = (s.observed.areas.wetting / std::f64::consts::PI).sqrt();
     let samples = PressureSamples {
         points: &flow.state.particles.position[..fluids],
         pressures: &flow.state.particles.pressure[..fluids],
@@ -64,7 +64,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 /// Standard deviation over mean of the distance of the contour points from the center.
 fn scatter(s: &Subject) -> f64 {
     let center = center(s);
-    let points = s.seen.interface.iter().flat_map(|line| &line.points);
+    let points = s.observed.interface.iter().flat_map(|line| &line.points);
     let radii: Vec<f64> = points.map(|x| s.flow.config.domain.separation(*x, center).norm()).collect();
     let mean = radii.iter().sum::<f64>() / radii.len() as f64;
     (radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64).sqrt() / mean

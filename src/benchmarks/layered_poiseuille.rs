@@ -49,7 +49,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds, m) = (s.flow, s.flow.config.domain.bounds, &s.flow.config.method);
     let p = &flow.state.particles;
     let height = bounds.size().y;
-    let below = height * s.seen.areas.saturation();
+    let below = height * s.observed.areas.saturation();
     // The driving force is per volume: the solution holds for equal densities only.
     let equal = m.wetting_fluid.density == m.other_fluid.density;
     let law = LayeredPoiseuille {

@@ -40,7 +40,7 @@ use crate::case::MeasureSet;
 use crate::sph::measures::Group;
 
 /// The groups of measures that a case asks for.
-pub fn asked_for(set: &MeasureSet) -> Vec<Group> {
+pub fn requested_groups(set: &MeasureSet) -> Vec<Group> {
     let all = [
         (set.sessile_drop, sessile_drop::GROUP),
         (set.laplace_drop, laplace_drop::GROUP),
@@ -63,5 +63,5 @@ pub fn asked_for(set: &MeasureSet) -> Vec<Group> {
         (set.slit_filling, slit_filling::GROUP),
         (set.capillary_rise, capillary_rise::GROUP),
     ];
-    all.into_iter().filter(|(is_asked_for, _)| *is_asked_for).map(|(_, group)| group).collect()
+    all.into_iter().filter(|(is_requested, _)| *is_requested).map(|(_, group)| group).collect()
 }

@@ -89,7 +89,7 @@ pub(super) fn columns(flow: &Flow, _: &Observation) -> Columns {
 pub(super) fn drop(s: &Subject) -> OscillatingDrop {
     let m = &s.flow.config.method;
     OscillatingDrop {
-        radius: (s.seen.areas.wetting / PI).sqrt(),
+        radius: (s.observed.areas.wetting / PI).sqrt(),
         tension: m.tension,
         density: m.mean_density(),
         viscosity: m.wetting_fluid.viscosity,

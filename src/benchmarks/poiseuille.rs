@@ -69,7 +69,7 @@ fn force(s: &Subject) -> (f64, bool) {
     let inlets = flow.config.open.sides.iter().chain(&flow.config.open.through);
     for side in inlets {
         if let Drive::Velocity(profile) = &side.drive {
-            return (12.0 * fluid.viscosity * profile.mean * side.inwards() / size.y.powi(2), false);
+            return (12.0 * fluid.viscosity * profile.mean * side.inward_sign() / size.y.powi(2), false);
         }
     }
     let pressure = |number| {

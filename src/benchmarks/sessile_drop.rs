@@ -164,8 +164,8 @@ fn image(flow: &Flow, observation: &Observation) -> Option<ContactLine> {
 
 /// Areas in m² of wetting and non-wetting phase; for a half drop beside a symmetry side those of the whole one.
 fn areas(s: &Subject) -> [f64; 2] {
-    let whole = if mirror(s.flow, s.seen).is_some() { 2.0 } else { 1.0 };
-    [whole * s.seen.areas.wetting, whole * s.seen.areas.non_wetting]
+    let whole = if mirror(s.flow, s.observed).is_some() { 2.0 } else { 1.0 };
+    [whole * s.observed.areas.wetting, whole * s.observed.areas.non_wetting]
 }
 
 fn columns(flow: &Flow, observation: &Observation) -> Columns {
@@ -174,7 +174,7 @@ fn columns(flow: &Flow, observation: &Observation) -> Columns {
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let Extent { base, height } = Extent::of(s.flow, s.seen);
+    let Extent { base, height } = Extent::of(s.flow, s.observed);
     let of_base = "distance of the two contact points of the fitted meniscus";
     let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";
     let (exact, over) = if s.flow.config.method.gravity == Vec2::zeros() { as_a_cap(s) } else { under_gravity(s) };
@@ -195,7 +195,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 /// The exact drop of either phase without gravity, and its description.
 fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
     let through_wetting = s.flow.config.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
-    let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
+    let is_wetting = s.observed.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
     let [wetting, non_wetting] = areas(s);
     let exact = if is_wetting {
         cap(wetting, through_wetting)
@@ -211,9 +211,9 @@ fn under_gravity(s: &Subject) -> (SessileDrop, &'static str) {
     let m = &s.flow.config.method;
     let force = m.curvature_gradient();
     let is_on_floor = |line: &ContactLine| -(s.flow.config.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
-    let asked_for = m.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
-    let exact = sessile_drop(areas(s)[0], force.norm().sqrt().recip(), asked_for);
-    let exact = exact.filter(|_| s.seen.lines_with_angle().all(is_on_floor));
+    let angle = m.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
+    let exact = sessile_drop(areas(s)[0], force.norm().sqrt().recip(), angle);
+    let exact = exact.filter(|_| s.observed.lines_with_angle().all(is_on_floor));
     let over =
         "over that of the Young-Laplace equation with the same area, the requested angle and gravity, on a level floor";
     (exact.unwrap_or(SessileDrop { base: f64::NAN, height: f64::NAN }), over)

@@ -101,7 +101,7 @@ fn law(s: &Subject) -> Option<SlitFilling> {
         pressure: capillary + side.given_pressure()? - exit.given_pressure()?,
         densities: [m.wetting_fluid.density, m.other_fluid.density],
         viscosities: [m.wetting_fluid.viscosity, m.other_fluid.viscosity],
-        gravity: side.inwards() * m.gravity[side.axis()],
+        gravity: side.inward_sign() * m.gravity[side.axis()],
     })
 }
 

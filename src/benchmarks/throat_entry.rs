@@ -21,7 +21,7 @@ pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Opt
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, h) = (s.flow.config.method.tension, s.flow.config.method.kernel.h);
-    let found = &s.seen.capillary_pressure;
+    let found = &s.observed.capillary_pressure;
     let pressure = measure(
         "entry-pressure-Pa",
         found.value,
@@ -39,7 +39,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let exact = entry_curvature([a.radius, b.radius], distance, defending).map(|curvature| sign * curvature);
     let entry = exact.map(|exact| tension * depth.map_or(exact, |depth| depth.curvature(exact)));
     let ratio = |pressure: f64| entry.map_or(f64::NAN, |entry| pressure / entry);
-    let fitted: Vec<f64> = s.seen.lines_with_angle().map(|line| -line.curvature).collect();
+    let fitted: Vec<f64> = s.observed.lines_with_angle().map(|line| -line.curvature).collect();
     let curvature = fitted.iter().sum::<f64>() / fitted.len() as f64;
     vec![
         pressure,

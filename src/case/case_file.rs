@@ -60,7 +60,7 @@ pub struct Case {
 
 impl Case {
     /// The dimension of its pressures, volumes and rates, in one line; `None` for a film on a wall.
-    pub(crate) fn about_depth(&self) -> Option<String> {
+    pub(crate) fn depth_text(&self) -> Option<String> {
         match (&self.model, self.depth) {
             (Model::ThinFilm(_), _) => None,
             (_, None) => {

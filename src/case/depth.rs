@@ -38,7 +38,7 @@ pub(super) fn depth(
             ("network", network.interface.as_ref().map_or(&[][..], |interface| &interface.patches))
         }
         Some(Model::ThinFilm(_)) if depth.is_some() => {
-            let message = "a thin film lies on one wall, and a depth is the distance of a floor and a lid";
+            let message = "a thin film lies on one wall, and a depth is the distance between a floor and a lid";
             return checker.refuse(KEY, message, "leave it out");
         }
         _ => return,
@@ -46,7 +46,7 @@ pub(super) fn depth(
     let Some(depth) = depth else {
         let on_plates = patches.iter().position(|patch| matches!(patch.on, PatchedWall::Plate(_)));
         if let Some(index) = on_plates {
-            let message = "floor and lid are those of a chip with a depth, and there is none";
+            let message = "floor and lid need a depth, and none is given";
             checker.refuse(
                 format!("{table}.wetting.patches[{index}].plate"),
                 message,
@@ -55,14 +55,14 @@ pub(super) fn depth(
         }
         return;
     };
-    checker.problems.extend(geometry.and_then(|geometry| none_of(depth, geometry)));
+    checker.problems.extend(geometry.and_then(|geometry| implausible_depth(depth, geometry)));
 }
 
 /// What is wrong with a depth in m that does not fit a geometry.
-pub(crate) fn none_of(depth: f64, geometry: &GeometrySpec) -> Option<Problem> {
+pub(crate) fn implausible_depth(depth: f64, geometry: &GeometrySpec) -> Option<Problem> {
     let size = (geometry.max[0] - geometry.min[0]).max(geometry.max[1] - geometry.min[1]);
     // The command line accepts any number.
     let is_of_it = depth <= MOST * size && depth * MOST >= size;
-    let message = format!("the depth of {depth:e} m is none of a domain of {size:e} m");
+    let message = format!("the depth of {depth:e} m is implausible for a domain of {size:e} m");
     (!is_of_it).then(|| Problem::new(KEY, message, "give it in m: 50 um are 50e-6; leave it out for a plane"))
 }

@@ -68,7 +68,7 @@ fn regions(case: &Case, sph: &Sph, facts: &Facts) -> Vec<Problem> {
     lost.map(|index| Problem {
         path: format!("{}[{index}]", sph.initial.key),
         message: if in_domain[index] {
-            "the initial shape lies wholly inside the solid".to_owned()
+            "the initial shape lies entirely inside the solid".to_owned()
         } else {
             format!("the initial shape contains no particle of the domain at a spacing of {:e} m", sph.spacing)
         },

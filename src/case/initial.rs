@@ -97,7 +97,7 @@ pub(super) fn initial(
     if two_phases && wetting.is_empty() {
         checker.refuse(
             key,
-            "there are two phases, and no shape says where they are",
+            "there are two phases, and no shape defines their regions",
             "add [[sph.initial.wetting]] with a shape, such as disc = { center = [0.0, 0.0], radius = 1.0e-3 }",
         );
     }
@@ -126,14 +126,14 @@ pub(super) fn from_network(
     let velocity = velocity(checker, raw);
     let start = start?;
     if let Some((_, misfit)) = start.state.misfit_of_sides(sides) {
-        let message = format!("{} is the state of other sides: {misfit}", start.file.display());
+        let message = format!("{} was written for other sides: {misfit}", start.file.display());
         let help =
             "walls and periodic sides must be those of the network; its inlet and its outlet may be open or closed";
         checker.refuse(PATH, message, help);
         return None;
     }
     if start.state.invading_outline.is_empty() {
-        let message = format!("{} holds no menisci: a direct simulation wrote it", start.file.display());
+        let message = format!("{} has no menisci: it was written by a direct simulation", start.file.display());
         checker.refuse(
             PATH,
             message,
@@ -151,7 +151,7 @@ fn refuse_beside(checker: &mut Checker, deciding: &str, others: &[(&str, bool)])
     for (key, _) in others.iter().filter(|(_, given)| *given) {
         checker.refuse(
             format!("sph.initial.{key}"),
-            format!("`{deciding}` says which phase is where, and `{key}` is given too"),
+            format!("`{deciding}` defines the regions of the phases, and `{key}` is given too"),
             "keep one of them",
         );
     }

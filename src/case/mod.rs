@@ -38,7 +38,7 @@ mod wetting;
 
 pub(crate) use case_file::digest;
 pub use case_file::{Case, Model};
-pub(crate) use depth::none_of;
+pub(crate) use depth::implausible_depth;
 pub use facts::{Facts, check_against};
 pub use fluid::{Fluid, FluidPhase, RawFluid, RawInterface, RawPhases};
 pub(crate) use initial::InitialVelocity;

@@ -102,8 +102,8 @@ pub(super) fn open(
         if pair.iter().all(|&i| kinds[i] == Side::Periodic && tables[i].is_some()) {
             checker.refuse(
                 at(SIDES[pair[1]]),
-                format!("both `{}` and `{}` have a flow, and they are one side", SIDES[pair[0]], SIDES[pair[1]]),
-                "keep the table of the side that fluid comes in through",
+                format!("`{}` and `{}` both have a flow, and are one periodic side", SIDES[pair[0]], SIDES[pair[1]]),
+                "keep the table of the side through which fluid enters",
             );
         }
     }
@@ -172,7 +172,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
         checker.refuse(
             format!("{path}.profile"),
             "a profile needs a velocity or a flow rate",
-            "at a given pressure the flow finds its own profile; leave this out",
+            "at a given pressure the profile is a result; leave this out",
         );
     }
     let pressure_steps = pressure_steps(checker, &path, &raw);
@@ -185,7 +185,7 @@ fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide) -> Optio
     if raw.pressure.is_none() {
         checker.refuse(
             path,
-            "a pressure that rises in steps needs the first one",
+            "a pressure that rises in steps needs an initial value",
             "give pressure = ... in Pa beside it, or leave this out",
         );
         return None;
@@ -197,7 +197,7 @@ fn phase(checker: &mut Checker, name: &str, raw: &RawOpenSide, two_phases: bool)
     if raw.phase.is_some() && !two_phases {
         checker.refuse(
             format!("{}.phase", at(name)),
-            "a phase that comes in needs two phases, and there is no [sph.phases.non-wetting]",
+            "an entering phase needs two phases, and there is no [sph.phases.non-wetting]",
             "add the second phase, or leave this out",
         );
     }
@@ -209,7 +209,7 @@ fn parabola(checker: &mut Checker, side: usize, kinds: [Side; 4]) {
     if across.iter().any(|&i| kinds[i] == Side::Periodic) || across.iter().all(|&i| kinds[i] == Side::Symmetry) {
         checker.refuse(
             format!("{}.profile", at(SIDES[side])),
-            "a parabola needs a wall at one end at least",
+            "a parabola needs a wall at one end or both",
             "use profile = \"plug\", or close the adjacent sides",
         );
     }
@@ -228,13 +228,13 @@ fn together(checker: &mut Checker, kinds: [Side; 4], open: [Option<Open>; 4]) {
     if rest.is_empty() {
         checker.refuse(
             format!("sph.sides.{}", SIDES[*first]),
-            format!("`{}` is the only open side: what is incompressible cannot flow in or out there", SIDES[*first]),
+            format!("`{}` is the only open side: an incompressible fluid cannot flow in or out there", SIDES[*first]),
             "open the opposite side too, with \"outlet\"",
         );
     } else if sides.iter().all(|&i| open[i].is_some_and(|open| !matches!(open.drive, Drive::Pressure(_)))) {
         checker.refuse(
             format!("sph.sides.{}", SIDES[*first]),
-            "fluid flows in at given velocities everywhere and has no way out",
+            "fluid flows in at given velocities at all open sides and cannot leave",
             "make one side an \"outlet\"",
         );
     }

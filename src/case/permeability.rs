@@ -16,7 +16,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
     if sph.non_wetting.is_some() {
         checker.refuse(
             "sph.phases.non-wetting",
-            "a permeability is that of one fluid, and there are two: their interface moves or holds them back",
+            "a permeability is measured with one fluid, and there are two: their interface moves or resists the flow",
             "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] with a frozen interface",
         );
     }
@@ -24,7 +24,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
         let other = if sph.measure.cylinder_array { "cylinder-array" } else { "poiseuille" };
         checker.refuse(
             "sph.measure.permeability",
-            format!("the force acts along x and y in turn, and [sph.measure.{other}] is that of one force"),
+            format!("the force acts along x and y in turn, and [sph.measure.{other}] needs a single force"),
             "keep one of both",
         );
     }
@@ -33,11 +33,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
     }
     let has_walls = sph.sides.each().contains(&Side::Wall);
     if geometry.is_some_and(|geometry| geometry.shapes.is_empty()) && !has_walls {
-        checker.refuse(
-            "sph.measure.permeability",
-            "there are no solids that would hold the flow back",
-            "add [geometry] shapes",
-        );
+        checker.refuse("sph.measure.permeability", "there are no solids that resist the flow", "add [geometry] shapes");
     }
 }
 
@@ -61,7 +57,7 @@ pub(super) fn no_side_is_driven(checker: &mut Checker, sph: &Sph) -> bool {
             let help = "leave the speed out, or [sph.measure.permeability]";
             checker.refuse(
                 format!("sph.sides.speed.{side}"),
-                "a wall that moves drives the flow beside sph.gravity",
+                "a moving wall drives the flow in addition to sph.gravity",
                 help,
             );
         }
@@ -111,7 +107,7 @@ pub(super) fn records(
     if is_steady && forces > 1.0 {
         checker.refuse(
             "time.steady",
-            "sph.gravity turns from x to y at half the time, and a run that ends before has no second column",
+            "sph.gravity turns from x to y at half the time, and a run that ends early has no second column",
             "leave this out; unsteady-share-x and unsteady-share-y show how steady both flows are",
         );
     }

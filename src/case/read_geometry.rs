@@ -96,7 +96,7 @@ pub(super) fn read_geometry(
         Err(NotRead::File(error)) => {
             for mistake in error.mistakes {
                 // A file that cannot be read is a mistake of the key that names it.
-                match mistake.place {
+                match mistake.location {
                     None => checker.refuse("geometry.file", mistake.message.clone(), mistake.help_text()),
                     Some(_) => elsewhere.push(mistake),
                 }
@@ -149,7 +149,7 @@ fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, N
         ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
         ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, help)),
         ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
-            (format!("{}: found {}", refusal.place, refusal.found), format!("expected {}", refusal.expected))
+            (format!("{}: found {}", refusal.location, refusal.found), format!("expected {}", refusal.expected))
         })),
         ShapeFileError::Shapes { path, problems } => NotRead::File(each_part(&name, &path, &problems, |problem| {
             (format!("{}: {}", problem.path, problem.message), problem.help.clone())

@@ -141,7 +141,7 @@ fn every(
     if checker.is_given(&path_of_other, other.as_ref()) {
         checker.refuse(
             path_of_other,
-            format!("the records of this case are not counted by `{}`", clock.other),
+            format!("the records of this case cannot be scheduled by `{}`", clock.other),
             format!("write {} = ... # {}", clock.key, clock.what),
         );
     }
@@ -194,7 +194,7 @@ pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, out
         if raw.network.is_none() {
             checker.refuse(
                 "time.steady",
-                "only [sph] tells when it is steady",
+                "only [sph] detects a steady state",
                 "leave this out; the run ends at time.end",
             );
         }

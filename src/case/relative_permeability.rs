@@ -20,7 +20,7 @@ pub(super) fn relative_permeability(checker: &mut Checker, model: Option<&Model>
     if sph.non_wetting.is_none() {
         checker.refuse(
             TABLE,
-            "a relative permeability is that of two phases, and there is one fluid",
+            "a relative permeability needs two phases, and there is one fluid",
             "add [sph.phases.non-wetting], [sph.interface] and [[sph.initial.wetting]], or measure [sph.measure.permeability]",
         );
     }
@@ -28,14 +28,14 @@ pub(super) fn relative_permeability(checker: &mut Checker, model: Option<&Model>
     if sph.measure != alone {
         checker.refuse(
             TABLE,
-            "the interface is frozen, and three flows follow one another: other measures are those of one flow",
+            "the interface is frozen, and three flows are computed in turn: other measures need a single flow",
             "leave out the other tables of [sph.measure]; their measures need a run of their own",
         );
     }
     if sph.walls.slip_length > 0.0 {
         checker.refuse(
             "sph.walls.slip-length",
-            "walls slip, and the frozen interface is one of the walls",
+            "walls slip, and the frozen interface counts as a wall",
             "leave this out: there is no slip on walls and interface",
         );
     }
@@ -83,7 +83,7 @@ pub(super) fn records(
     if is_steady {
         checker.refuse(
             "time.steady",
-            "three flows follow one another, and a run that ends before has no relative permeability",
+            "three flows are computed in turn, and a run that ends early has no relative permeability",
             "leave this out; unsteady-share shows how steady the flows are",
         );
     }

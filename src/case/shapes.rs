@@ -39,7 +39,7 @@ tables! {
         pub window: [[f64; 2]; 2],
         /// Layers of an SVG or DXF drawing (default: all).
         pub layers: Vec<String>,
-        /// Distance below which ends of lines of a DXF drawing are joined, in units of the drawing (default: 1e-6 of its size).
+        /// Gap below which the ends of lines in a DXF drawing are joined, in units of the drawing (default: 1e-6 of its size).
         pub join_within: f64 => options::JOIN_WITHIN,
         /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
         pub threshold: f64 => options::THRESHOLD,
@@ -49,7 +49,7 @@ tables! {
         pub invert: bool,
         /// Reads polygons with vertices on a circle as discs (default true).
         pub recognize_circles: bool,
-        /// Polygon corners that turn by less than this many degrees become arcs; 0: none (default 20.0).
+        /// Polygon corners with a turning angle below this many degrees become arcs; 0: none (default 20.0).
         pub smooth_below_deg: f64 => options::SMOOTH_BELOW,
         /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
         pub columns: [usize; 3],
@@ -167,7 +167,7 @@ pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
         ("diameters", raw.diameters.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
-        let message = format!("`{key}` tells how a file is read, and no `file` is given");
+        let message = format!("`{key}` controls how a file is read, and no `file` is given");
         checker.refuse(
             format!("geometry.{key}"),
             message,

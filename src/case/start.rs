@@ -39,7 +39,7 @@ pub(super) fn start(
             file::read_text(&path)
         }
     };
-    let name = given.map_or_else(|| path.display().to_string(), |_| "what the network hands over".to_owned());
+    let name = given.map_or_else(|| path.display().to_string(), |_| "the state of the network".to_owned());
     let text = match read {
         Ok(text) => text,
         Err(error) => {
@@ -54,12 +54,12 @@ pub(super) fn start(
     let state = match NetworkState::read(&text) {
         Ok(state) => state,
         Err(error) => {
-            checker.refuse(key, format!("{} is no state of a network: {error}", path.display()), WRITE);
+            checker.refuse(key, format!("{} is not a network state: {error}", path.display()), WRITE);
             return None;
         }
     };
     if let Some(misfit) = geometry.and_then(|geometry| state.misfit(geometry)) {
-        let message = format!("{name} is the state of another geometry: {misfit}");
+        let message = format!("{name} belongs to another geometry: {misfit}");
         let help = match given {
             Some(_) => "let both cases name the same shape file",
             None => "run the network of this geometry first, and take the state that it writes",

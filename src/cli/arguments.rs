@@ -228,7 +228,7 @@ pub(crate) struct PackArguments {
     /// Width and height of the pack in m
     #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 1, default_values_t = [5e-3, 3e-3], requires = "pack")]
     pub(crate) size: Vec<f64>,
-    /// Periodic axes of a random pack
+    /// Axes along which a random pack is periodic
     #[arg(long, value_enum, default_value = "none", requires = "pack")]
     pub(crate) periodic: PackPeriodic,
 }
@@ -236,7 +236,7 @@ pub(crate) struct PackArguments {
 /// Kinds of packs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PackKind {
-    /// Discs at random positions
+    /// Randomly placed discs
     Random,
     /// Discs on a square lattice
     Square,

@@ -30,7 +30,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     let Checked { trial: found, warnings, advice } = checked;
     say(&case.title);
-    case.about_depth().iter().for_each(|depth| say(format_args!("  depth       {depth}")));
+    case.depth_text().iter().for_each(|depth| say(format_args!("  depth       {depth}")));
     description(case).iter().for_each(|(name, text)| say(format_args!("  {name:<11} {text}")));
     if let Model::Network(network) = &case.model {
         say(format_args!("  pores       {}", found.unknowns));
@@ -89,7 +89,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     {
         say(format_args!(
             "  lines       contact lines slip by one spacing, and their speeds depend on it: give sph.walls.slip-length, or sph.wetting.cox with \
-             the slip length of the wall in nanometers; states of rest do not depend on it"
+             the slip length of the wall in nanometers; static states do not depend on it"
         ));
     }
     advice.iter().for_each(print_advice);
@@ -142,7 +142,7 @@ fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
         tell(format_args!("the first steps of {unknowns} particles are tried: five, or as many as ten seconds allow"));
     }
     let mut display = ProgressDisplay::new();
-    let found = checked::check(case, solver, &mut |fraction| display.tried(fraction));
+    let found = checked::check(case, solver, &mut |fraction| display.trial(fraction));
     display.finish();
     found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
 }

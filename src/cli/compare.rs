@@ -43,7 +43,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let direct = source::load_case(Some(&arguments.direct), &[])?;
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
     let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), mode);
-    let claim = if arguments.resume { folder::take_up(&out, &out.join(DIRECT_RUN)) } else { folder::create(&out) };
+    let claim = if arguments.resume { folder::reopen(&out, &out.join(DIRECT_RUN)) } else { folder::create(&out) };
     let _claim = claim.map_err(|error| Failure::new(USAGE, &error))?;
     tell(format_args!("{} | {} -> {}", network.case.title, direct.case.title, out.display()));
     let pair = Pair { network: &network.case, direct: &direct.case, records: arguments.records.get() };
@@ -61,7 +61,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
         })
     })?;
     let Some(found) = found else {
-        say(format_args!("interrupted; the same command with --out {} --resume goes on", out.display()));
+        say(format_args!("interrupted; the same command with --out {} --resume continues it", out.display()));
         return Ok(INTERRUPTED);
     };
     write(&found, &out).map_err(|error| Failure::new(USAGE, &error))?;

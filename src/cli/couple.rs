@@ -44,7 +44,7 @@ fn wanted(text: &str) -> Result<Wanted, String> {
         None if text == "breakthrough" => Ok(Wanted::Breakthrough),
         None if text == "overlap" => Ok(Wanted::Overlap),
         Some(("pore", number)) => {
-            number.parse().map(Wanted::Pore).map_err(|_| format!("{number} is no number of a pore"))
+            number.parse().map(Wanted::Pore).map_err(|_| format!("{number} is not the number of a pore"))
         }
         _ => Err("expected breakthrough, overlap or pore:N, with the number N of a pore".to_owned()),
     }
@@ -141,7 +141,7 @@ fn initial(key: &str, folder: &Path) -> Result<String, Failure> {
 fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<String, Failure> {
     let Model::Sph(sph) = &direct.case.model else {
         return Err(direct
-            .refused_at("", "the second case is no direct simulation", "give it [sph] with both phases")
+            .refused_at("", "the second case is not a direct simulation", "give it [sph] with both phases")
             .into());
     };
     if sph.initial.network.is_none() {
@@ -160,7 +160,7 @@ fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<Stri
         (Some(_), Some(outlet)) => Ok(format!("sph.sides.open.{name}.pressure={:?}", outlet + difference)),
         (None, _) => {
             let message =
-                format!("the network is entered at the side `{name}`, and here that is no inlet with a pressure");
+                format!("the network has its inlet at `{name}`, and here that is not an inlet with a pressure");
             let help = format!(
                 "set {name} = \"inlet\", and pressure = 0.0 in [sph.sides.open.{name}]; `couple` sets the value"
             );

@@ -7,7 +7,7 @@ use clap::{CommandFactory, Parser};
 
 use super::arguments::{Arguments, Command};
 use super::exit::{BUG, DONE, Failure, USAGE};
-use super::output::{complain, say};
+use super::output::{print_error, say};
 use super::threads::pool;
 use super::{check, compare, couple, geometry, list, man, network, new, output, run, source, study, threads};
 
@@ -20,7 +20,7 @@ pub fn main() -> ExitCode {
         let what =
             payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let what = what.unwrap_or("no message");
-        complain(format_args!(
+        print_error(format_args!(
             "bug in meniscus: {what}{location}. Please report this line together with the case file."
         ));
         std::process::exit(i32::from(BUG));
@@ -32,7 +32,7 @@ pub fn main() -> ExitCode {
                 output::be_quiet();
             }
             dispatch(arguments.command).unwrap_or_else(|failure| {
-                complain(failure.message.trim_end());
+                print_error(failure.message.trim_end());
                 failure.code
             })
         }
@@ -52,7 +52,7 @@ pub fn main() -> ExitCode {
 fn all_printed(code: u8) -> u8 {
     let Some(error) = output::not_printed() else { return code };
     let what = format!("cannot print the results: {error}; write them somewhere else");
-    complain(Failure::new(USAGE, &what).message);
+    print_error(Failure::new(USAGE, &what).message);
     if code == DONE { USAGE } else { code }
 }
 

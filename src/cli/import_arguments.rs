@@ -20,7 +20,7 @@ pub(crate) struct ImportArguments {
     /// Layers to read; all if not given
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) layers: Option<Vec<String>>,
-    /// Distance below which ends of lines of a DXF drawing are joined, in units of the drawing
+    /// Gap below which the ends of lines in a DXF drawing are joined, in units of the drawing
     #[arg(long, value_name = "LENGTH")]
     pub(crate) join_within: Option<f64>,
     /// Gray value that separates solid and pore of a mask, from 0 (black) to 1 (white)
@@ -35,7 +35,7 @@ pub(crate) struct ImportArguments {
     /// Keep polygons whose vertices lie on a circle
     #[arg(long)]
     pub(crate) no_circles: bool,
-    /// Vertices that turn by less than this many degrees become arcs; 20 if not given, 0 for none
+    /// Vertices with a turning angle below this many degrees become arcs; 20 if not given, 0 for none
     #[arg(long, value_name = "DEG")]
     pub(crate) smooth_below_deg: Option<f64>,
     /// Columns of x, y and radius in a list of discs, the first one being 0

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::arguments::{NewArguments, PackArguments, PackKind, PackPeriodic};
 use super::exit::{BAD_INPUT, DONE, Failure, USAGE};
 use super::output::{readable, say};
-use super::source::sound_depth;
+use super::source::valid_depth;
 use crate::geometry::Geometry;
 use crate::geometry::export::{self, Beside, Format};
 use crate::geometry::pack::{Micromodel, array, micromodel, random_pack, smallest_gap};
@@ -31,7 +31,7 @@ pub(crate) fn new_pack(kind: PackKind, arguments: &NewArguments, file: &Path) ->
     let region = [[0.0; 2], size];
     let (spec, discs, periodic) = shapes(kind, arguments, region).map_err(|error| bad(&error))?;
     let geometry = Geometry::new(&spec).map_err(|error| bad(&error))?.with_periodic(periodic);
-    sound_depth(depth, &spec)?;
+    valid_depth(depth, &spec)?;
     let comment = format!("# {}\n", std::env::args().skip(1).collect::<Vec<_>>().join(" "));
     let mut text = comment.into_bytes();
     text.extend(

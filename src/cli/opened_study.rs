@@ -13,7 +13,7 @@ use crate::study::estimate::Cores;
 use crate::study::folder::StudyFolder;
 use crate::study::load::load;
 use crate::study::report::{StudyReport, report};
-use crate::study::results::{RunResult, Standing};
+use crate::study::results::{RunResult, RunState};
 use crate::study::run::PlannedRun;
 use crate::study::runs::plan;
 use crate::study::verdict::Verdict;
@@ -48,7 +48,7 @@ pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>,
         };
         if let Some(other) = all.iter().find(|other| other.folder.root() == folder.root()) {
             let (name, root) = (&other.study.name, folder.root().display());
-            let message = format!("two studies of the name {name} would both write to {root}; name them one at a time");
+            let message = format!("two studies named {name} would both write to {root}; name them one at a time");
             return Err(Failure::new(USAGE, &message));
         }
         all.push(Opened { study, runs, ensemble, folder, program: program(path)? });
@@ -85,11 +85,11 @@ pub(crate) fn cores(arguments: &CoresArguments) -> Cores {
 /// Writes and prints the report; the exit code is the status of the study.
 pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
     let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
-    Ok(told(opened, &written))
+    Ok(print_report(opened, &written))
 }
 
 /// Prints a report; the exit code is the status of the study.
-pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
+pub(crate) fn print_report(opened: &Opened, written: &StudyReport) -> u8 {
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
     print_judgments(written);
@@ -111,9 +111,9 @@ pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
     say(format_args!("  page        {}", written.page.display()));
     say(format_args!("  table       {}", written.csv.display()));
     let failed: Vec<&RunResult> =
-        written.results.iter().filter(|result| matches!(result.standing, Standing::Failed(_))).collect();
+        written.results.iter().filter(|result| matches!(result.state, RunState::Failed(_))).collect();
     for result in failed.iter().take(MOST_FAILURES) {
-        if let Standing::Failed(report) = &result.standing {
+        if let RunState::Failed(report) = &result.state {
             let why = report.error.as_deref().unwrap_or("the solver failed");
             say(format_args!("  FAILED      run {} ({}): {why}", result.run.index, result.run.name));
         }

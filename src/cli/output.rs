@@ -44,12 +44,12 @@ pub(crate) fn not_printed() -> Option<&'static io::Error> {
 /// A line of progress, a note or a warning, on standard error.
 pub(crate) fn tell(line: impl Display) {
     if !is_quiet() {
-        complain(line);
+        print_error(line);
     }
 }
 
 /// An error, on standard error.
-pub(crate) fn complain(line: impl Display) {
+pub(crate) fn print_error(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

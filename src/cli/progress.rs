@@ -38,7 +38,7 @@ impl ProgressDisplay {
     }
 
     /// Shows the progress of the trial steps.
-    pub(crate) fn tried(&mut self, fraction: f64) {
+    pub(crate) fn trial(&mut self, fraction: f64) {
         self.show(fraction, || "first steps are tried".to_owned());
     }
 

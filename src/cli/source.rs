@@ -92,8 +92,8 @@ fn of_options(problems: &[Problem]) -> Failure {
 }
 
 /// Refuses an invalid depth in m for these shapes.
-pub(crate) fn sound_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(), Failure> {
-    depth.and_then(|depth| case::none_of(depth, spec)).map_or(Ok(()), |problem| Err(of_options(&[problem])))
+pub(crate) fn valid_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(), Failure> {
+    depth.and_then(|depth| case::implausible_depth(depth, spec)).map_or(Ok(()), |problem| Err(of_options(&[problem])))
 }
 
 /// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m if given; `at` receives the current stage.
@@ -129,7 +129,7 @@ pub(crate) fn load_shapes(
         (false, periodic) => {
             let Imported { spec, depth: of_file, .. } = geometry_of_file(path, options, periodic.unwrap_or_default())?;
             let depth = depth.or(of_file);
-            sound_depth(depth, &spec)?;
+            valid_depth(depth, &spec)?;
             at("uniting the shapes");
             let problems = spec.periodic_problems(periodic.unwrap_or_default());
             if !problems.is_empty() {
@@ -180,7 +180,7 @@ fn measures(geometry: &Geometry, depth: Option<f64>) -> Vec<Measure> {
     for (number, throat) in throats(geometry).iter().take(THROATS).enumerate() {
         // Adding zero turns minus zero into zero.
         let (c, name) = (throat.center.map(|v| v + 0.0), format!("throat-{}-width-m", number + 1));
-        let method = format!("shortest way from wall to wall, middle at ({:.4e}, {:.4e}) m", c.x, c.y);
+        let method = format!("shortest distance from wall to wall, middle at ({:.4e}, {:.4e}) m", c.x, c.y);
         found.push(measure(&name, throat.width, "m", &method));
         if let Some(depth) = depth {
             let name = format!("throat-{}-width-over-depth", number + 1);

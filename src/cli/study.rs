@@ -79,7 +79,7 @@ fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> T
         let mebibytes = memory_of(Some(estimate)) as f64 / BYTES_PER_MEBIBYTE;
         row.push(cell(&|_| format!("{mebibytes:.0} MiB")));
         row.push(cell(&|trial| duration(trial.duration_s)));
-        row.push(result.standing.word().to_owned());
+        row.push(result.state.word().to_owned());
         row
     };
     Table { heads, rows: results.iter().zip(estimates).map(row).collect() }
@@ -87,7 +87,7 @@ fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> T
 
 /// The remaining work, with the given cores.
 fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String {
-    let open = || results.iter().zip(estimates).filter(|(result, _)| result.standing.report().is_none());
+    let open = || results.iter().zip(estimates).filter(|(result, _)| result.state.report().is_none());
     let seconds: Vec<f64> =
         open().filter_map(|(_, estimate)| estimate.as_ref().ok()).map(|trial| trial.duration_s).collect();
     // An empty sum is minus zero.

@@ -57,7 +57,7 @@ pub(crate) struct StudyRunArguments {
     #[arg(long, value_name = "MIB")]
     pub(crate) memory: Option<u64>,
     #[command(flatten)]
-    pub(crate) place: EngineArguments,
+    pub(crate) execution: EngineArguments,
     /// Do only the run of this number, in this process
     #[arg(long, value_name = "I")]
     pub(crate) index: Option<std::num::NonZeroUsize>,

@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
         if let Some(ensemble) = &opened.ensemble {
             return study_samples::run(arguments, opened, ensemble);
         }
-        match arguments.place.engine {
+        match arguments.execution.engine {
             Engine::Local => here(arguments, opened),
             Engine::Slurm => cluster(arguments, opened),
         }
@@ -58,7 +58,7 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let mut printer = ProgressPrinter { count: runs.len(), ended: 0 };
     let ends = work(&job, &mut |event| printer.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
     if flag.load(Ordering::Relaxed) {
-        tell("interrupted; the same command goes on");
+        tell("interrupted; the same command continues");
         return Ok(INTERRUPTED);
     }
     let code = finish(opened)?;
@@ -109,7 +109,7 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         .runs
         .iter()
         .zip(&results)
-        .filter(|(_, result)| result.standing.report().is_none())
+        .filter(|(_, result)| result.state.report().is_none())
         .map(|(run, _)| run)
         .collect();
     if open.is_empty() {
@@ -125,7 +125,7 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         program: &opened.program,
         threads: usize::from(arguments.cores.threads),
         jobs: arguments.cores.jobs.map(usize::from),
-        options: &arguments.place.sbatch,
+        options: &arguments.execution.sbatch,
     };
     let job = submit(&array).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("{} runs submitted as job array {job}", open.len()));

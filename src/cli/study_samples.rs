@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::exit::{DONE, Failure, INTERRUPTED, USAGE};
 use super::interrupt;
-use super::opened_study::{Opened, cores, told};
+use super::opened_study::{Opened, cores, print_report};
 use super::output::{say, tell};
-use super::study_arguments::{CoresArguments, Engine as Place, StudyRunArguments};
+use super::study_arguments::{CoresArguments, Engine as EngineKind, StudyRunArguments};
 use super::threads::pool;
 use crate::study::definition::Study;
 use crate::study::ensemble::bands::write;
@@ -19,9 +19,8 @@ use crate::study::values::{number_of, shown};
 
 /// Runs the missing samples, and writes the report.
 pub(crate) fn run(arguments: &StudyRunArguments, opened: &Opened, ensemble: &Ensemble) -> Result<u8, Failure> {
-    if arguments.place.engine == Place::Slurm {
-        let message =
-            "samples of networks are run within one process; for a job array set processes = true in [sampling]";
+    if arguments.execution.engine == EngineKind::Slurm {
+        let message = "samples of networks run within one process; for a job array set processes = true in [sampling]";
         return Err(Failure::new(USAGE, &message));
     }
     let flag = interrupt::flag();
@@ -61,10 +60,10 @@ fn work(
         let written = report_of(study, engine.results(), folder, &figures);
         let written = written.map_err(|error| Failure::new(USAGE, &error))?;
         if run.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-            tell(format_args!("interrupted after {} of {all} samples; the same command goes on", engine.count()));
+            tell(format_args!("interrupted after {} of {all} samples; the same command continues", engine.count()));
             return Ok(INTERRUPTED);
         }
-        Ok(told(opened, &written))
+        Ok(print_report(opened, &written))
     })
 }
 

@@ -62,7 +62,7 @@ fn ending(report: &Report) -> String {
     match report.status {
         Status::Done => reached,
         Status::ExpectationFailed => format!("{reached}; not as expected"),
-        Status::Interrupted => format!("interrupted at {at}; go on with --resume"),
+        Status::Interrupted => format!("interrupted at {at}; continue with --resume"),
         Status::Failed => format!("FAILED at {at}; the last good state is in the output folder"),
     }
 }
@@ -117,9 +117,9 @@ fn push_angles(text: &mut String, report: &Report) {
 }
 
 fn push_measures(text: &mut String, report: &Report) {
-    let asked_for = requested_angle(&report.case).is_some();
+    let is_requested = requested_angle(&report.case).is_some();
     let width = report.measures.keys().map(String::len).max().unwrap_or(0);
-    for (name, reading) in report.measures.iter().filter(|(name, _)| !(asked_for && *name == ANGLE)) {
+    for (name, reading) in report.measures.iter().filter(|(name, _)| !(is_requested && *name == ANGLE)) {
         let _ = writeln!(text, "  {name:<width$}  {}", with_uncertainty(reading));
     }
 }

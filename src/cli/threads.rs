@@ -25,7 +25,7 @@ fn bounded(option: &str, requested: usize, cores: usize) -> (usize, Option<Strin
         return (requested, None);
     }
     let these = if cores == 1 { "1 core".to_owned() } else { format!("{cores} cores") };
-    (cores, Some(format!("{option} {requested}: this machine has {these}, and so many are used")))
+    (cores, Some(format!("{option} {requested}: this machine has {these}, and this number is used")))
 }
 
 /// The thread pool of a run: with the requested number of threads, or all cores.
@@ -68,6 +68,6 @@ mod tests {
         assert_eq!(bounded("--threads", 4, 4), (4, None));
         let (found, note) = bounded("--threads", 100_000, 4);
         assert_eq!(found, 4);
-        assert_eq!(note.unwrap(), "--threads 100000: this machine has 4 cores, and so many are used");
+        assert_eq!(note.unwrap(), "--threads 100000: this machine has 4 cores, and this number is used");
     }
 }

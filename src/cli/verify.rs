@@ -57,7 +57,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         }
     }
     for kept in &written.kept {
-        tell(format_args!("{} was changed by hand, and is run as it is", kept.display()));
+        tell(format_args!("{} was changed by hand, and is run as is", kept.display()));
     }
     let subdomain = planned.iter().filter(|one| one.subdomain.is_ok()).count();
     tell(format_args!("{} throats, {subdomain} with a cut-out -> {}", planned.len(), folder.display()));
@@ -75,8 +75,8 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         let loaded = load(&study).map_err(Failure::input)?;
         found = results(&plan_runs(&loaded).map_err(Failure::input)?, &StudyFolder::new(&runs_in));
     }
-    if code == INTERRUPTED || arguments.only_write || arguments.place.engine == Engine::Slurm && is_open(&found) {
-        tell("the same command goes on, and tells what came out");
+    if code == INTERRUPTED || arguments.only_write || arguments.execution.engine == Engine::Slurm && is_open(&found) {
+        tell("the same command continues, and prints the results");
         return Ok(code);
     }
     let rows: Vec<Row> = planned.iter().map(|one| row(one, &fluids, &spacings, &found)).collect();
@@ -118,7 +118,7 @@ fn parsed<T: std::str::FromStr<Err = String>>(texts: &[String]) -> Result<Vec<T>
 }
 
 fn is_open(results: &[RunResult]) -> bool {
-    results.iter().any(|result| result.standing.report().is_none())
+    results.iter().any(|result| result.state.report().is_none())
 }
 
 fn study_arguments(arguments: &VerifyArguments, study: PathBuf, out: PathBuf) -> StudyRunArguments {
@@ -126,7 +126,7 @@ fn study_arguments(arguments: &VerifyArguments, study: PathBuf, out: PathBuf) ->
         files: StudyFiles { studies: vec![study], out: Some(out) },
         cores: CoresArguments { threads: NonZeroUsize::MIN, jobs: arguments.threads },
         memory: None,
-        place: arguments.place.clone(),
+        execution: arguments.execution.clone(),
         index: None,
         worker: false,
         digest: None,

@@ -47,5 +47,5 @@ pub(crate) struct VerifyArguments {
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
     #[command(flatten)]
-    pub(crate) place: EngineArguments,
+    pub(crate) execution: EngineArguments,
 }

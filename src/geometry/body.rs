@@ -45,7 +45,7 @@ pub(crate) struct Body {
 
 /// Location of a point relative to a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum Location {
     /// Inside, deeper than the tolerance.
     In,
     /// Outside, farther than the tolerance.
@@ -221,19 +221,19 @@ impl Body {
     }
 
     /// Location of `x` within a tolerance in m.
-    pub(crate) fn place(&self, x: Vec2, tolerance: f64) -> Place {
+    pub(crate) fn locate(&self, x: Vec2, tolerance: f64) -> Location {
         if !self.bounds.grown(tolerance).contains(x) {
-            return Place::Out;
+            return Location::Out;
         }
         let distance = self.signed_distance(x);
         if distance > tolerance {
-            Place::Out
+            Location::Out
         } else if distance < -tolerance {
-            Place::In
+            Location::In
         } else {
             match self.curves.nearest(x) {
-                Some((curve, closest)) => Place::On(curve.normal(closest.u)),
-                None => Place::Out,
+                Some((curve, closest)) => Location::On(curve.normal(closest.u)),
+                None => Location::Out,
             }
         }
     }

@@ -4,9 +4,9 @@
 //! one is kept if both solids lie on the same side, and none if the solids touch. Hence the depth within overlapping solids is the distance to the true
 //! surface, not the minimum over the bodies.
 
-use crate::geometry::body::{Body, Place};
+use crate::geometry::body::{Body, Location};
 use crate::geometry::curve::{ClosestPoint, Curve};
-use crate::geometry::intersect::meeting_places;
+use crate::geometry::intersect::intersections;
 use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
 
@@ -48,7 +48,7 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
     let mut parameters = Vec::new();
     for other in others {
         if near.overlaps(&other.bounds()) {
-            meeting_places(curve, other, tolerance, &mut parameters);
+            intersections(curve, other, tolerance, &mut parameters);
         }
     }
     if parameters.is_empty() {
@@ -75,11 +75,11 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
 }
 
 /// Whether a part with this outward normal remains in a union with one other body.
-fn stays(location: Place, normal: Vec2, is_first: bool) -> bool {
+fn stays(location: Location, normal: Vec2, is_first: bool) -> bool {
     match location {
-        Place::In => false,
-        Place::Out => true,
-        Place::On(other) => is_first && other.dot(&normal) > 0.0,
+        Location::In => false,
+        Location::Out => true,
+        Location::On(other) => is_first && other.dot(&normal) > 0.0,
     }
 }
 
@@ -118,7 +118,7 @@ pub(crate) fn union(bodies: &[&Body], tolerance: f64) -> Vec<Piece> {
             for part in all.split(curve, Some(i)) {
                 let (middle, normal) = (part.point(0.5), part.normal(0.5));
                 let mut others = all.around(middle).filter(|&j| j != i);
-                if others.all(|j| stays(bodies[j].place(middle, tolerance), normal, i < j)) {
+                if others.all(|j| stays(bodies[j].locate(middle, tolerance), normal, i < j)) {
                     pieces.push(Piece { curve: part, shape: body.shape });
                 }
             }
@@ -134,7 +134,7 @@ pub(crate) fn complement(pores: &[&Body], walls: &[&Body], tolerance: f64) -> Ve
     for piece in union(pores, tolerance) {
         for part in all_walls.split(&piece.curve.reversed(), None) {
             let (middle, normal) = (part.point(0.5), part.normal(0.5));
-            if all_walls.around(middle).all(|j| stays(walls[j].place(middle, tolerance), normal, true)) {
+            if all_walls.around(middle).all(|j| stays(walls[j].locate(middle, tolerance), normal, true)) {
                 pieces.push(Piece { curve: part, shape: piece.shape });
             }
         }
@@ -142,7 +142,7 @@ pub(crate) fn complement(pores: &[&Body], walls: &[&Body], tolerance: f64) -> Ve
     for piece in union(walls, tolerance) {
         for part in all_pores.split(&piece.curve, None) {
             let middle = part.point(0.5);
-            if all_pores.around(middle).any(|j| pores[j].place(middle, tolerance) == Place::In) {
+            if all_pores.around(middle).any(|j| pores[j].locate(middle, tolerance) == Location::In) {
                 pieces.push(Piece { curve: part, shape: piece.shape });
             }
         }
@@ -156,18 +156,18 @@ pub(crate) fn difference(body: &Body, others: &[&Body], tolerance: f64) -> Vec<C
     let mut curves = Vec::new();
     for part in body.curves.iter().flat_map(|curve| all.split(curve, None)) {
         let (middle, normal) = (part.point(0.5), part.normal(0.5));
-        let is_kept = all.around(middle).all(|j| match others[j].place(middle, tolerance) {
-            Place::In => false,
-            Place::Out => true,
+        let is_kept = all.around(middle).all(|j| match others[j].locate(middle, tolerance) {
+            Location::In => false,
+            Location::Out => true,
             // Adjacent to it, not in it.
-            Place::On(other) => other.dot(&normal) < 0.0,
+            Location::On(other) => other.dot(&normal) < 0.0,
         });
         curves.extend(is_kept.then_some(part));
     }
     for piece in union(others, tolerance) {
         let near = body.curves.near(piece.curve.bounds().grown(tolerance));
         let parts = split(&piece.curve, near, tolerance).into_iter();
-        let inside = parts.filter(|part| body.place(part.point(0.5), tolerance) == Place::In);
+        let inside = parts.filter(|part| body.locate(part.point(0.5), tolerance) == Location::In);
         curves.extend(inside.map(|part| part.reversed()));
     }
     curves
@@ -180,10 +180,10 @@ pub(crate) fn intersection(one: &Body, other: &Body, tolerance: f64) -> Vec<Curv
         for curve in kept.curves.iter() {
             let near = by.curves.near(curve.bounds().grown(tolerance));
             curves.extend(split(curve, near, tolerance).into_iter().filter(|part| {
-                match by.place(part.point(0.5), tolerance) {
-                    Place::In => true,
-                    Place::Out => false,
-                    Place::On(normal) => is_first && normal.dot(&part.normal(0.5)) > 0.0,
+                match by.locate(part.point(0.5), tolerance) {
+                    Location::In => true,
+                    Location::Out => false,
+                    Location::On(normal) => is_first && normal.dot(&part.normal(0.5)) > 0.0,
                 }
             }));
         }
@@ -301,7 +301,7 @@ mod tests {
         for k in 0..1000 {
             let circle = Curve::circle(Vec2::new(-1.9, -0.5), 0.1 + 1e-4 * f64::from(k));
             let parts = split(&circle, frame.curves.iter(), 4e-9);
-            let inside = parts.iter().filter(|p| frame.place(p.point(0.5), 4e-9) == Place::In).count();
+            let inside = parts.iter().filter(|p| frame.locate(p.point(0.5), 4e-9) == Location::In).count();
             assert_eq!(inside, 1, "{k} {parts:?}");
         }
     }

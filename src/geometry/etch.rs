@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::body::{Body, Place, bulged_ring};
+use crate::geometry::body::{Body, Location, bulged_ring};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::intersect::crossings;
@@ -29,7 +29,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Why a shape cannot be displaced, and a remedy.
 type Refused = (String, &'static str);
 
-const SMALLER: &str = "take a smaller etch offset, or draw the shape without what is so small";
+const SMALLER: &str = "take a smaller etch offset, or draw the shape without such small details";
 
 impl GeometrySpec {
     /// The same drawing with its walls displaced into the pore by `offset` in m, below 0 into the solid.
@@ -91,7 +91,7 @@ fn reaches_into(body: &Body, other: &Body, domain: Bounds, tolerance: f64) -> bo
     body.curves.iter().filter(|curve| near.overlaps(&curve.bounds())).any(|curve| {
         split(curve, other.curves.near(curve.bounds().grown(tolerance)), tolerance)
             .iter()
-            .any(|part| other.place(part.point(0.5), tolerance) == Place::In)
+            .any(|part| other.locate(part.point(0.5), tolerance) == Location::In)
     })
 }
 
@@ -137,12 +137,12 @@ impl ShapeSpec {
             Self::CurvedPolygon(polygon) => Self::CurvedPolygon(grown_polygon(polygon, by, shortest)?),
             Self::ThroatCosine(_) => {
                 return Err((
-                    "a wall at a constant distance from a cosine is no cosine".to_owned(),
+                    "a wall at a constant distance from a cosine is not a cosine".to_owned(),
                     "set `throat` and `width` in place of the etch offset",
                 ));
             }
             Self::RandomPack(_) | Self::Array(_) => {
-                return Err(("a generator is moved disc by disc".to_owned(), "name its discs"));
+                return Err(("a generator cannot be etched".to_owned(), "name its discs"));
             }
         })
     }

@@ -1,7 +1,7 @@
 //! Numerically admissible sizes and positions of the domain, and of shapes relative to it.
 //!
 //! At intersections of curves, lengths below a billionth of the domain count as zero. The wall of a shape a million times larger than the domain is accurate
-//! to a tenth of that; beyond, it would be lost to rounding.
+//! to a tenth of that; beyond, it would be lost.
 
 use crate::geometry::body::Body;
 use crate::geometry::spec::{GeometrySpec, RandomPack, ShapeSpec};
@@ -69,7 +69,7 @@ impl GeometrySpec {
                         "the shape is {:.3e} periods of the domain long, expected at most {MOST_PERIODS}",
                         x.max(y)
                     );
-                    let help = "make it smaller, or the domain larger; a `half-plane` is a flat wall without end";
+                    let help = "make it smaller, or the domain larger; a `half-plane` is an infinite flat wall";
                     found.push(Problem::new(format!("shapes[{i}].{}", shape.key()), message, help));
                     break;
                 }

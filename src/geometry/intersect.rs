@@ -7,7 +7,7 @@ use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
 /// Adds to `found` the parameters on `curve` at its intersections with `other`, within `tolerance` in m.
-pub(crate) fn meeting_places(curve: &Curve, other: &Curve, tolerance: f64, found: &mut Vec<f64>) {
+pub(crate) fn intersections(curve: &Curve, other: &Curve, tolerance: f64, found: &mut Vec<f64>) {
     let mut keep = |x: Vec2| {
         let (here, there) = (curve.project(x), other.project(x));
         if (here.point - x).norm() <= tolerance && (there.point - x).norm() <= tolerance {
@@ -73,9 +73,9 @@ fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64) -> [Option<Vec2>; 2] {
 mod tests {
     use super::*;
 
-    fn places(a: &Curve, b: &Curve) -> Vec<f64> {
+    fn parameters(a: &Curve, b: &Curve) -> Vec<f64> {
         let mut found = Vec::new();
-        meeting_places(a, b, 1e-9, &mut found);
+        intersections(a, b, 1e-9, &mut found);
         found.sort_by(f64::total_cmp);
         found
     }
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn crossing_circles_meet_twice_at_points_of_both() {
         let (a, b) = (Curve::circle(Vec2::zeros(), 1.0), Curve::circle(Vec2::new(1.0, 0.5), 0.7));
-        let found = places(&a, &b);
+        let found = parameters(&a, &b);
         assert_eq!(found.len(), 2);
         for u in found {
             assert!(((a.point(u) - Vec2::new(1.0, 0.5)).norm() - 0.7).abs() < 1e-12);
@@ -94,12 +94,12 @@ mod tests {
     fn segments_that_share_a_part_are_split_at_its_ends() {
         let a = Curve::Segment { a: Vec2::zeros(), b: Vec2::new(4.0, 0.0) };
         let b = Curve::Segment { a: Vec2::new(3.0, 0.0), b: Vec2::new(1.0, 0.0) };
-        assert_eq!(places(&a, &b), [0.25, 0.75]);
+        assert_eq!(parameters(&a, &b), [0.25, 0.75]);
     }
 
     #[test]
     fn a_segment_that_ends_short_of_a_circle_does_not_meet_it() {
         let segment = Curve::Segment { a: Vec2::new(-3.0, 0.0), b: Vec2::new(-1.5, 0.0) };
-        assert!(places(&segment, &Curve::circle(Vec2::zeros(), 1.0)).is_empty());
+        assert!(parameters(&segment, &Curve::circle(Vec2::zeros(), 1.0)).is_empty());
     }
 }

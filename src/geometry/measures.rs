@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 
-use crate::geometry::body::{Body, Place};
+use crate::geometry::body::{Body, Location};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::Curve;
 use crate::geometry::solid::Geometry;
@@ -46,11 +46,11 @@ impl Geometry {
         let frame = Body::of_box(u32::MAX, self.bounds());
         let mut outline = Vec::new();
         for piece in self.visible_pieces() {
-            let keep = match frame.place(piece.curve.point(0.5), tolerance) {
-                Place::In => true,
-                Place::Out => false,
+            let keep = match frame.locate(piece.curve.point(0.5), tolerance) {
+                Location::In => true,
+                Location::Out => false,
                 // A wall on a side of the domain bounds solid within the domain only if it faces outwards.
-                Place::On(outwards) => outwards.dot(&piece.curve.normal(0.5)) > 0.0,
+                Location::On(outwards) => outwards.dot(&piece.curve.normal(0.5)) > 0.0,
             };
             if keep {
                 outline.push(piece.curve);

@@ -119,7 +119,7 @@ impl<'a> UnfittedSurface<'a> {
     }
 
     /// The same surface, restricted to points for which `counts` holds, given their position (m) and normal.
-    pub(crate) fn where_it(self, counts: impl Fn(Vec2, Vec2) -> bool + Send + Sync + 'a) -> Self {
+    pub(crate) fn restricted(self, counts: impl Fn(Vec2, Vec2) -> bool + Send + Sync + 'a) -> Self {
         Self { counts: Some(Box::new(counts)), ..self }
     }
 
@@ -224,10 +224,10 @@ impl<'a> UnfittedSurface<'a> {
             within(x) && self.near(x, 2.0 * depth.abs()).is_some_and(is_at_depth)
         };
         let good: Vec<bool> = samples.par_iter().map(|x| x.is_some_and(has_depth)).collect();
-        let place = |i: usize| samples[i].unwrap_or_default();
+        let sample = |i: usize| samples[i].unwrap_or_default();
         // The last valid point between a valid and an invalid sample.
         let end = |good: usize, bad: usize| {
-            let (mut a, mut b) = (place(good), samples[bad]?);
+            let (mut a, mut b) = (sample(good), samples[bad]?);
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (a + b);
                 if has_depth(middle) { a = middle } else { b = middle }
@@ -237,7 +237,7 @@ impl<'a> UnfittedSurface<'a> {
         let n = samples.len();
         let first = if is_closed { good.iter().position(|good| !good) } else { None };
         let Some(first) = first.or((!is_closed).then_some(0)) else {
-            return vec![OffsetCurve { points: (0..n).map(place).collect(), closed: true }];
+            return vec![OffsetCurve { points: (0..n).map(sample).collect(), closed: true }];
         };
         let mut lines: Vec<Vec<Vec2>> = Vec::new();
         let mut line: Vec<Vec2> = Vec::new();
@@ -248,7 +248,7 @@ impl<'a> UnfittedSurface<'a> {
                 if let Some(before) = before.filter(|&before| !good[before]) {
                     line.extend(end(i, before));
                 }
-                line.push(place(i));
+                line.push(sample(i));
             } else if !line.is_empty() {
                 line.extend(before.and_then(|before| end(before, i)));
                 lines.push(std::mem::take(&mut line));

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::geometry::body::{Body, Place};
+use crate::geometry::body::{Body, Location};
 use crate::geometry::boundary::{Piece, chains, followers, split};
 use crate::geometry::curve::Curve;
 use crate::geometry::solid::Geometry;
@@ -58,7 +58,7 @@ impl Geometry {
         let mut visible = Vec::new();
         for piece in &self.boundary.pieces {
             for curve in split(&piece.curve, frame.curves.iter(), self.tolerance()) {
-                if frame.place(curve.point(0.5), self.tolerance()) != Place::Out {
+                if frame.locate(curve.point(0.5), self.tolerance()) != Location::Out {
                     visible.push(Piece { curve, shape: piece.shape });
                 }
             }

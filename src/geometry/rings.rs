@@ -12,7 +12,7 @@ use geo::Intersects;
 use crate::geometry::boundary::split;
 use crate::geometry::curve::Curve;
 use crate::geometry::curve_set::CurveSet;
-use crate::geometry::intersect::meeting_places;
+use crate::geometry::intersect::intersections;
 use crate::geometry::tree::Tree;
 use crate::geometry::winding::Winding;
 use crate::math::{Bounds, Vec2};
@@ -218,14 +218,14 @@ impl<'a> Edges<'a> {
         }
         let near_vertex = AT_VERTEX * a.length().min(b.length());
         let mut parameters = Vec::new();
-        meeting_places(a, b, self.tolerance, &mut parameters);
+        intersections(a, b, self.tolerance, &mut parameters);
         let away = |x: &Vec2| vertices.iter().all(|vertex| (x - vertex).norm() > near_vertex);
         parameters.into_iter().map(|u| a.point(u)).find(away)
     }
 
     fn first_point(&self, a: &Curve, b: &Curve) -> Option<Vec2> {
         let mut parameters = Vec::new();
-        meeting_places(a, b, self.tolerance, &mut parameters);
+        intersections(a, b, self.tolerance, &mut parameters);
         parameters.into_iter().min_by(f64::total_cmp).map(|u| a.point(u))
     }
 

@@ -24,13 +24,13 @@ pub enum ShapeFileError {
         source: std::io::Error,
     },
     /// The file extension is unknown.
-    #[error("the shape file {} ends in none of .toml (shapes), .xyr, .discs, .txt, .csv (discs), .wkt, .geojson, .json, .shp, .svg, .dxf (drawings), .png, .tif, .tiff (masks)", path.display())]
+    #[error("the shape file {} has none of the endings .toml (shapes), .xyr, .discs, .txt, .csv (discs), .wkt, .geojson, .json, .shp, .svg, .dxf (drawings), .png, .tif, .tiff (masks)", path.display())]
     Ending {
         /// Absolute path.
         path: PathBuf,
     },
     /// A TOML file, which the case module should read.
-    #[error("{} is a TOML shape file, which the case reader has to read", path.display())]
+    #[error("{} is a TOML shape file, which only the case reader reads", path.display())]
     Toml {
         /// Absolute path.
         path: PathBuf,

@@ -2,7 +2,7 @@
 //!
 //! Individual points of rings are checked here; intersections and containment of rings in `rings`.
 
-use crate::geometry::body::{Body, Place, bulged_ring};
+use crate::geometry::body::{Body, Location, bulged_ring};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::extent::{self, Numbers};
@@ -86,15 +86,15 @@ fn reaches(body: &Body, domain: Bounds) -> bool {
     let inner = frame.curves.iter().any(|side| {
         split(side, body.curves.near(side.bounds().grown(tolerance)), tolerance)
             .iter()
-            .any(|part| body.place(part.point(0.5), tolerance) == Place::In)
+            .any(|part| body.locate(part.point(0.5), tolerance) == Location::In)
     });
     // A domain that no surface crosses is covered completely or not at all.
     inner
-        || body.place(domain.center(), tolerance) == Place::In
+        || body.locate(domain.center(), tolerance) == Location::In
         || body.curves.iter().any(|curve| {
             split(curve, frame.curves.iter(), tolerance)
                 .iter()
-                .any(|part| frame.place(part.point(0.5), tolerance) == Place::In)
+                .any(|part| frame.locate(part.point(0.5), tolerance) == Location::In)
         })
 }
 

@@ -159,7 +159,7 @@ impl Renamed {
     fn note(&self) -> String {
         let table = self.table.join(".");
         format!(
-            "`{table}.{}` is now called `{table}.{}`; the next version will not read the old name",
+            "`{table}.{}` is now called `{table}.{}`; the next version will not accept the old name",
             self.before, self.now
         )
     }
@@ -167,12 +167,12 @@ impl Renamed {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{path, tree::place};
+    use super::super::{path, tree::span_at};
     use super::*;
 
     fn place_of(text: &str, path: &str) -> String {
         let document = Document::parse("f", text, &Overrides::default()).unwrap();
-        text[place(document.tree().get_ref(), &path::parse(path).unwrap())].to_owned()
+        text[span_at(document.tree().get_ref(), &path::parse(path).unwrap())].to_owned()
     }
 
     #[test]
@@ -199,7 +199,7 @@ mod tests {
         let parsed = |text| Document::parse("f", text, &Overrides::default()).unwrap().with_renamed(&RENAMED);
         let text = "[a.b]\nold = 1\n";
         let document = parsed(text);
-        assert_eq!(&text[place(document.tree().get_ref(), &path::parse("a.b.new").unwrap())], "1");
+        assert_eq!(&text[span_at(document.tree().get_ref(), &path::parse("a.b.new").unwrap())], "1");
         let notes = document.notes_on_renamed();
         assert!(notes.len() == 1 && notes[0].contains("`a.b.old` is now called `a.b.new`"), "{notes:?}");
         // With both names present, the old one is a mistake, like any unknown key.

@@ -18,7 +18,7 @@ pub struct Mistake {
     /// The file, or the `--set KEY=VALUE`.
     pub name: String,
     /// Line and column, from 1; absent for a file as a whole.
-    pub place: Option<(usize, usize)>,
+    pub location: Option<(usize, usize)>,
     #[help]
     help: Option<String>,
     #[source_code]
@@ -33,7 +33,7 @@ impl Mistake {
         Self {
             message: shortened(&message, LONGEST),
             name: name.to_owned(),
-            place: None,
+            location: None,
             help: non_empty(help),
             excerpt: None,
             span: None,
@@ -56,7 +56,7 @@ impl Mistake {
         Self {
             message: shortened(&problem.0, LONGEST),
             name: name.to_owned(),
-            place: Some((line, column)),
+            location: Some((line, column)),
             help: non_empty(&problem.1),
             excerpt: Some(excerpt),
             span: Some((span.start, span.len()).into()),
@@ -70,7 +70,7 @@ impl Mistake {
 
     /// `file.toml:12:5: message`, and a second line with the help.
     fn render(&self) -> String {
-        let location = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
+        let location = self.location.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
         let help = self.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
         format!("{}{location}: {}\n{help}", shortened(&self.name, LONGEST), self.message)
     }

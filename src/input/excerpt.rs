@@ -22,12 +22,12 @@ pub(super) struct Excerpt {
     /// Number of the first line, from 0.
     first_line: usize,
     /// Line and column of the mistake, from 0.
-    place: (usize, usize),
+    location: (usize, usize),
 }
 
 impl Excerpt {
     /// The lines around the bytes `range` of `text`, which begin and end at character boundaries, and the range of these bytes in the excerpt.
-    pub(crate) fn new(name: &str, text: &str, range: Range<usize>, place: (usize, usize)) -> (Self, Range<usize>) {
+    pub(crate) fn new(name: &str, text: &str, range: Range<usize>, location: (usize, usize)) -> (Self, Range<usize>) {
         let begin = text[..range.start].rfind('\n').map_or(0, |end| end + 1);
         let end = text[range.start..].find('\n').map_or(text.len(), |length| range.start + length);
         let lines_before = text[..begin].strip_suffix('\n').map(|before| before.rsplit('\n').next().unwrap_or(before));
@@ -52,10 +52,10 @@ impl Excerpt {
             shown.push('\n');
             shown.push_str(&shortened(line, BEFORE + AFTER));
         }
-        let first_line = place.0 - usize::from(lines_before.is_some());
+        let first_line = location.0 - usize::from(lines_before.is_some());
         let start = start.min(until);
         let span = start..(start + range.len()).min(until);
-        (Self { name: shortened(name, BEFORE + AFTER), text: shown, first_line, place }, span)
+        (Self { name: shortened(name, BEFORE + AFTER), text: shown, first_line, location }, span)
     }
 }
 
@@ -70,7 +70,7 @@ impl SourceCode for Excerpt {
         let (range, (line, column)) = if lines_before + lines_after > 0 {
             (0..bytes.len(), (self.first_line, 0))
         } else {
-            (span.offset()..span.offset() + span.len(), self.place)
+            (span.offset()..span.offset() + span.len(), self.location)
         };
         let data = bytes.get(range.clone()).ok_or(MietteError::OutOfBounds)?;
         let span = (range.start, range.len()).into();

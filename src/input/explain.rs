@@ -43,7 +43,7 @@ pub(super) fn explain(serde: &str) -> Explained {
                           write one table per shape"
                 .to_owned();
     } else if serde.contains("unit variant, expected newtype variant") {
-        explained.message = "expected a table, found a name alone".to_owned();
+        explained.message = "expected a table, found only a name".to_owned();
         explained.help =
             "a name is followed by its values, as in `{ disc = { center = [0.0, 0.0], radius = 1.0e-3 } }`".to_owned();
     } else if serde == "wanted string or table" {

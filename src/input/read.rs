@@ -15,7 +15,7 @@ use super::error::{InputError, Mistake};
 use super::explain::{Explained, explain};
 use super::path::{self, Step};
 use super::problem::Problem;
-use super::tree::{Container, container, find, node, node_span, place, value_at, visit};
+use super::tree::{Container, container, find, node, node_span, span_at, value_at, visit};
 
 /// Number of mistakes after which reading stops; a file with more of them is not a case file.
 const MOST_MISTAKES: usize = 50;
@@ -82,13 +82,13 @@ impl<T> Reading<'_, T> {
                 more += 1;
                 continue;
             }
-            let range = place(tree.get_ref(), &steps);
+            let range = span_at(tree.get_ref(), &steps);
             let mistake = self.document.mistake(range.clone(), (problem.message, problem.help));
             mistakes.push((range, mistake));
         }
         mistakes.sort_by_key(|(range, _)| range.start);
         let mut mistakes: Vec<Mistake> = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
-        mistakes.dedup_by(|a, b| a.place == b.place && a.name == b.name && a.message == b.message);
+        mistakes.dedup_by(|a, b| a.location == b.location && a.name == b.name && a.message == b.message);
         if more > 0 || !self.complete {
             mistakes.truncate(MOST_MISTAKES);
             let more = if more > 0 {

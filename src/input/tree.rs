@@ -11,7 +11,7 @@ use super::path::Step;
 type See<'s> = dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>) + 's;
 
 /// The byte range of the value at a key path or, if absent, that of the nearest table around it.
-pub(super) fn place(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
+pub(super) fn span_at(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
     let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
     let Some(mut node) = root.get(first.as_str()) else { return 0..0 };
     for step in rest {

@@ -93,14 +93,14 @@ impl Depth {
 }
 
 /// The warning about a depth at which all throats are slits between floor and lid, or between their walls; all in m.
-pub(crate) fn odd(depth: f64, narrowest: f64, widest: f64) -> Option<String> {
+pub(crate) fn implausible(depth: f64, narrowest: f64, widest: f64) -> Option<String> {
     let advice = "is it in m? An etched or molded chip has 20e-6 to 400e-6";
     match () {
         () if depth > MOST * widest => Some(format!(
-            "the depth of {depth:e} m is more than {MOST} times the widest throat, {widest:.3e} m, so that all is as without a depth; {advice}"
+            "the depth of {depth:e} m is more than {MOST} times the widest throat, {widest:.3e} m, so that it has no effect; {advice}"
         )),
         () if depth * MOST < narrowest => Some(format!(
-            "the depth of {depth:e} m is less than the narrowest throat, {narrowest:.3e} m, over {MOST}, so that floor and lid alone decide pressures and flows; {advice}"
+            "the depth of {depth:e} m is less than the narrowest throat, {narrowest:.3e} m, over {MOST}, so that floor and lid alone determine pressures and flows; {advice}"
         )),
         () => None,
     }

@@ -84,7 +84,7 @@ fn cause(source: &io::Error) -> String {
 fn advice(source: &io::Error) -> &'static str {
     match source.kind() {
         ErrorKind::StorageFull | ErrorKind::WriteZero | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-            "free some space or choose another place with --out, then go on with --resume"
+            "free some space or choose another folder with --out, then continue with --resume"
         }
         ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {
             "choose a folder that you may write to with --out DIR"
@@ -199,8 +199,7 @@ mod tests {
         let message = FileError::Write { path: "out/series.csv".into(), source }.to_string();
         assert_eq!(
             message,
-            "cannot write out/series.csv: the disk is full; free some space or choose another place with --out, then go \
-             on with --resume"
+            "cannot write out/series.csv: the disk is full; free some space or choose another folder with --out, then continue with --resume"
         );
     }
 

@@ -23,7 +23,7 @@ pub struct Mark {
 
 impl Mark {
     /// The mark after `bytes`.
-    pub(crate) fn behind(bytes: &[u8]) -> Self {
+    pub(crate) fn after(bytes: &[u8]) -> Self {
         let mut mark = Self::default();
         mark.pass(bytes);
         mark
@@ -93,7 +93,7 @@ impl Journal {
     pub(crate) fn replace(&mut self, content: &[u8]) -> Result<(), FileError> {
         atomic::write(&self.path, content)?;
         self.file = Some(self.open().map_err(FileError::write(&self.path))?);
-        self.mark = Mark::behind(content);
+        self.mark = Mark::after(content);
         Ok(())
     }
 
@@ -117,7 +117,7 @@ pub(crate) fn read(path: &Path, mark: Mark) -> Result<Vec<u8>, FileError> {
         return Err(content(format!("expected {wanted} bytes or more, found {}", bytes.len())));
     }
     bytes.truncate(wanted);
-    if Mark::behind(&bytes) != mark {
+    if Mark::after(&bytes) != mark {
         return Err(content(format!("its first {wanted} bytes are not those that the run wrote")));
     }
     Ok(bytes)
@@ -141,14 +141,14 @@ mod tests {
         let mut journal = Journal::resume(path.clone(), mark).unwrap();
         journal.append(b"3,4\n").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"a,b\n1,2\n3,4\n");
-        assert_eq!(journal.mark(), Mark::behind(b"a,b\n1,2\n3,4\n"));
+        assert_eq!(journal.mark(), Mark::after(b"a,b\n1,2\n3,4\n"));
     }
 
     #[test]
     fn a_file_that_is_missing_shorter_or_changed_is_refused_by_its_name() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("series.csv");
-        let mark = Mark::behind(b"1,2\n3,4\n");
+        let mark = Mark::after(b"1,2\n3,4\n");
         for (content, words) in [
             (None, "no such file"),
             (Some("1,2\n"), "expected 8 bytes or more, found 4"),

@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     fn example() -> Saved {
-        let (series, frames) = (Mark::behind(b"a"), Mark::behind(b"b"));
+        let (series, frames) = (Mark::after(b"a"), Mark::after(b"b"));
         Saved { case_hash: u64::MAX, time: 0.1 + 0.2, step: 7, series, frames, state: (0..=255).collect() }
     }
 

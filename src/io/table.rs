@@ -32,7 +32,7 @@ fn field(cells: &Cells, row: usize) -> String {
         // Adding zero turns minus zero into zero.
         Cells::Numbers(values) => values.get(row).map(|&value| number(value + 0.0)),
         Cells::Counts(values) => values.get(row).map(ToString::to_string),
-        Cells::Places(values) => values.get(row).copied().flatten().map(|value| value.to_string()),
+        Cells::Indices(values) => values.get(row).copied().flatten().map(|value| value.to_string()),
         Cells::Flags(values) => values.get(row).map(|&value| if value { "True" } else { "False" }.to_owned()),
         Cells::Words(values) => values.get(row).map(|&word| word.to_owned()),
     };
@@ -52,7 +52,7 @@ mod tests {
             columns: vec![
                 column("x", Cells::Numbers(vec![0.1 + 0.2, f64::NAN, -0.0])),
                 column("label", Cells::Flags(vec![true, false])),
-                column("place", Cells::Places(vec![None, Some(7)])),
+                column("place", Cells::Indices(vec![None, Some(7)])),
                 column("word", Cells::Words(vec!["a,b"])),
             ],
         };

@@ -11,7 +11,7 @@ use crate::interface::films::WallFilms;
 use crate::wetting::Wetting;
 
 /// Floor and lid with the angles for an invading phase: on them the wetting phase recedes or advances.
-pub(super) fn met_by(invading: FluidPhase, depth: f64, interface: &NetworkInterface) -> Depth {
+pub(super) fn depth_for(invading: FluidPhase, depth: f64, interface: &NetworkInterface) -> Depth {
     let (wall, plates) = on_depth(invading, interface);
     Depth::new(depth, wall, plates)
 }
@@ -29,7 +29,7 @@ pub(super) fn film_terms(invading: FluidPhase, depth: f64, interface: &NetworkIn
     let through_wetting = |defending: f64| if invading == FluidPhase::Wetting { PI - defending } else { defending };
     let wall = |angle: f64| WallFilms::new(through_wetting(angle), plates);
     FilmTerms {
-        depth: met_by(invading, depth, interface),
+        depth: depth_for(invading, depth, interface),
         walls: angles(interface, walls, invading).into_iter().map(wall).collect(),
     }
 }

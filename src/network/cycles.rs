@@ -174,7 +174,7 @@ impl Cycles {
         for element in filled {
             self.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         }
-        self.follow_films();
+        self.update_films();
         let first_saturation = [saturation, self.saturation()];
         // Openings have no entry pressure, so there is none to record.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
@@ -222,12 +222,12 @@ impl Cycles {
             return self.turn();
         }
         let Some(event) = self.displacement.next() else {
-            self.press_to_the_end();
+            self.raise_to_final_pressure();
             return self.turn();
         };
-        self.let_films_follow(event.applied);
+        self.set_film_curvature(event.applied);
         self.displace(&event.elements);
-        self.follow_films();
+        self.update_films();
         let half = &self.half_cycles[self.half_cycle];
         let (curvature, half_cycle) = (half.towards_wetting(event.curvature), self.half_cycle);
         let (saturation, applied) = (self.saturation(), half.towards_wetting(event.applied));

@@ -2,7 +2,7 @@
 //! to the curve of capillary pressure over saturation.
 
 use super::cycles::{Cycles, tidy};
-use super::films::{CurvePoint, SeenFilms};
+use super::films::{CurvePoint, ObservedFilms};
 
 /// Curvatures in 1/m from one to another, including the last one, close enough for a smooth curve.
 fn places_between(from: f64, to: f64) -> Vec<f64> {
@@ -23,7 +23,7 @@ fn places_between(from: f64, to: f64) -> Vec<f64> {
 
 impl Cycles {
     /// Sets the thickness of films by a curvature in the plane (1/m) into the defending phase; both phases otherwise stay in place.
-    pub(super) fn let_films_follow(&mut self, applied: f64) {
+    pub(super) fn set_film_curvature(&mut self, applied: f64) {
         let half = self.half_cycle();
         let Some(films) = &self.films else { return };
         let to = films.curvature_at(half.towards_wetting(applied));
@@ -38,7 +38,7 @@ impl Cycles {
     }
 
     /// Updates the films to the present elements of the non-wetting phase.
-    pub(super) fn follow_films(&mut self) {
+    pub(super) fn update_films(&mut self) {
         let invading = self.half_cycle().invading;
         let Some(films) = &mut self.films else { return };
         films.update(&self.displacement, invading);
@@ -59,16 +59,16 @@ impl Cycles {
     }
 
     /// After the last event, films follow to the pressure at which the half cycle ends, if given.
-    pub(super) fn press_to_the_end(&mut self) {
+    pub(super) fn raise_to_final_pressure(&mut self) {
         let half = self.half_cycle();
         let end = half.conditions.largest_curvature;
         if self.films.is_none() || !end.is_finite() || self.outcomes[self.half_cycle].last.is_some() {
             return;
         }
         let applied = half.towards_wetting(end);
-        self.let_films_follow(end);
+        self.set_film_curvature(end);
         self.displacement.apply(end);
-        self.follow_films();
+        self.update_films();
         self.outcomes[self.half_cycle].last = Some(applied);
     }
 
@@ -88,7 +88,7 @@ impl Cycles {
     }
 
     /// Films for pictures and tables.
-    pub(crate) fn seen_films(&self) -> Option<SeenFilms> {
-        self.films.as_ref().map(|films| films.seen(&self.displacement))
+    pub(crate) fn observed_films(&self) -> Option<ObservedFilms> {
+        self.films.as_ref().map(|films| films.observed(&self.displacement))
     }
 }

@@ -177,11 +177,11 @@ impl Films {
     }
 
     /// The films for pictures and tables.
-    pub(crate) fn seen(&self, displacement: &Displacement) -> SeenFilms {
+    pub(crate) fn observed(&self, displacement: &Displacement) -> ObservedFilms {
         let count = self.states.len();
         let volume = |element| self.terms.depth.distance() * self.area_of(element, self.curvature);
         let strips = (0..count).flat_map(|element| self.strips(displacement, element)).collect();
-        SeenFilms { volume: (0..count).map(volume).collect(), strips }
+        ObservedFilms { volume: (0..count).map(volume).collect(), strips }
     }
 
     /// The films of an element from above: for each wall the middle line of the wider film, and its width in m.
@@ -213,7 +213,7 @@ impl Films {
 
 /// Films for pictures and tables.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SeenFilms {
+pub(crate) struct ObservedFilms {
     /// Volume in m³ in each element.
     pub(crate) volume: Vec<f64>,
     /// Along the walls: the middle line of each film in m, and its width in m.

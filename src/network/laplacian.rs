@@ -108,7 +108,7 @@ impl Laplacian {
     }
 
     /// Whether a node is connected to a given pressure.
-    pub(crate) fn hangs_on_a_pressure(&self, node: usize) -> bool {
+    pub(crate) fn is_connected_to_pressure(&self, node: usize) -> bool {
         let mut parent = parts(self.nodes, self.edges.iter().map(|edge| edge.ends));
         let part = root(&mut parent, node);
         self.edges.iter().any(|edge| edge.ends.1.is_none() && root(&mut parent, edge.ends.0) == part)

@@ -146,7 +146,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     } else if saturation.is_nan() {
         "the invading phase did not reach the outlet"
     } else if pressure.is_nan() {
-        "the outlet is reached through openings alone, which hold nothing back"
+        "the outlet is reached through openings alone, which have no entry pressure"
     } else {
         "at the event by which the invading phase reached the outlet"
     };
@@ -157,7 +157,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
         FluidPhase::NonWetting => (wetting, "wetting"),
         FluidPhase::Wetting => (1.0 - wetting, "non-wetting"),
     };
-    let ending = if cycles.is_done() { "at the end" } else { "so far, the displacement goes on" };
+    let ending = if cycles.is_done() { "at the end" } else { "so far, as the displacement continues" };
     let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0);
     let applied = largest.map(|entry| entry.applied).chain(cycles.outcomes()[0].last);
     let largest = applied.map(|applied| config.curvature(first.invading, applied));
@@ -185,7 +185,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
             "trapped-saturation",
             cycles.trapped_saturation(),
             "",
-            format!("share of the {space} where the {of} phase has no way to the outlet, {ending}"),
+            format!("share of the {space} where the {of} phase has no path to the outlet, {ending}"),
         ),
         measure(
             "final-wetting-saturation",

@@ -59,11 +59,11 @@ impl Configuration {
 
     /// (p_n - p_w)/σ in 1/m of such a meniscus, including the curvature by floor and lid.
     pub(crate) fn curvature(&self, invading: FluidPhase, in_plane: f64) -> f64 {
-        self.depth_met_by(invading).map_or(in_plane, |depth| depth.curvature(in_plane))
+        self.depth_for(invading).map_or(in_plane, |depth| depth.curvature(in_plane))
     }
 
     /// Floor and lid with the angles for an invading phase; `None` in the plane.
-    pub(crate) fn depth_met_by(&self, invading: FluidPhase) -> Option<Depth> {
+    pub(crate) fn depth_for(&self, invading: FluidPhase) -> Option<Depth> {
         self.depth.map(|[drainage, imbibition]| if invading == FluidPhase::Wetting { imbibition } else { drainage })
     }
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::{Element, Phase};
-use super::films::SeenFilms;
+use super::films::ObservedFilms;
 use super::model::Configuration;
 use crate::math::Vec2;
 
@@ -26,7 +26,7 @@ pub(crate) struct Occupation<'a> {
     /// The menisci, each a polyline in m.
     pub(crate) menisci: Vec<Vec<Vec2>>,
     /// The corner films, if any.
-    pub(crate) films: Option<SeenFilms>,
+    pub(crate) films: Option<ObservedFilms>,
     /// Process and progress as text, for pictures.
     pub(crate) note: String,
 }
@@ -57,7 +57,7 @@ impl Cycles {
             invasions: self.invasions().into(),
             passed: present.map(|entry| entry.throat).collect(),
             menisci: self.menisci(),
-            films: self.seen_films(),
+            films: self.observed_films(),
             note: format!(
                 "{} {}: wetting saturation {:.3}",
                 self.half_cycle().name(),

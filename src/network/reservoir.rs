@@ -154,10 +154,10 @@ fn ends(rows: &[Row]) -> [Row; 2] {
 
 /// A comment if a phase still flows at its end of the table, where simulators expect zero.
 fn unfinished(first: f64, last: f64, [of_first, of_last]: [&str; 2]) -> String {
-    let comment = |value: f64, name: &str, place: &str| {
+    let comment = |value: f64, name: &str, end: &str| {
         if value > 0.0 {
             format!(
-                "-- {name} is not 0 at the {place} saturation: the displacement ended while this phase still flowed, or began so.\n"
+                "-- {name} is not 0 at the {end} saturation: the displacement ended while this phase still flowed, or began so.\n"
             )
         } else {
             String::new()

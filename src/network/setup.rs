@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::angles::{angles, film_terms, met_by};
+use super::angles::{angles, depth_for, film_terms};
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
@@ -141,7 +141,7 @@ fn assemble(
         porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / ground.geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         depth: network.depth.zip(wanted.interface.as_ref()).map(|(depth, interface)| {
-            [FluidPhase::NonWetting, FluidPhase::Wetting].map(|invading| met_by(invading, depth, interface))
+            [FluidPhase::NonWetting, FluidPhase::Wetting].map(|invading| depth_for(invading, depth, interface))
         }),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
@@ -195,7 +195,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
         largest_step: driven.largest_step,
         inlet,
         outlet,
-        depth: config.depth_met_by(invading).map(|depth| (invading, depth)),
+        depth: config.depth_for(invading).map(|depth| (invading, depth)),
     };
     let start = Displacement::new(&config.network, &config.pores, conditions);
     let end = dynamic::solver::End {
@@ -232,7 +232,7 @@ fn half_cycles(
         let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
         let in_plane = |pressure: f64| {
             let curvature = pressure / interface.tension;
-            network.depth.map_or(curvature, |depth| met_by(invading, depth, interface).plane(curvature))
+            network.depth.map_or(curvature, |depth| depth_for(invading, depth, interface).plane(curvature))
         };
         let depth = network.depth.filter(|_| displacement.films);
         let films = depth.map(|depth| film_terms(invading, depth, interface, walls));

@@ -1,7 +1,7 @@
 //! `at-breakthrough.json` and `at-end.json`: states from which a network or a direct simulation of the same geometry can start.
 
 use super::cycles::{Cycles, HalfCycle};
-use super::displacement::{Beginning, Element, Phase, Standing};
+use super::displacement::{Beginning, Element, Phase, StaticMeniscus};
 use super::model::{Configuration, Model};
 use super::moment::Moment;
 use crate::case::FluidPhase;
@@ -67,7 +67,7 @@ pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment)
             FluidPhase::NonWetting => 1.0 - share,
         }),
         elements: elements(half, moment, &interfaces.trapped),
-        menisci: interfaces.menisci.iter().map(|standing| meniscus(half, standing)).collect(),
+        menisci: interfaces.menisci.iter().map(|one| meniscus(half, one)).collect(),
         snapped_throats: displacement.closed_throats(),
         invading_outline: interfaces.outline.iter().map(Curve::numbers).collect(),
     }
@@ -91,13 +91,13 @@ fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementSt
     displacement.elements().iter().enumerate().map(element).collect()
 }
 
-fn meniscus(half: &HalfCycle, standing: &Standing) -> MeniscusState {
+fn meniscus(half: &HalfCycle, meniscus: &StaticMeniscus) -> MeniscusState {
     MeniscusState {
-        between: standing.between,
-        curvature_per_m: standing.curvature.map(|curvature| half.towards_wetting(curvature)),
-        contacts_m: [standing.curve.point(0.0).into(), standing.curve.point(1.0).into()],
-        bend_rad: standing.bend,
-        swept_area_m2: standing.swept,
+        between: meniscus.between,
+        curvature_per_m: meniscus.curvature.map(|curvature| half.towards_wetting(curvature)),
+        contacts_m: [meniscus.curve.point(0.0).into(), meniscus.curve.point(1.0).into()],
+        bend_rad: meniscus.bend,
+        swept_area_m2: meniscus.swept,
     }
 }
 

@@ -113,15 +113,15 @@ struct Definitions {
 
 const DEFINITIONS: Definitions = Definitions {
     pore: "a local maximum of the distance to the nearest wall; its inscribed radius is that distance",
-    throat: "a saddle of the distance to the nearest wall; its width is twice that distance, its chord joins both contacts and parts the pores",
+    throat: "a saddle of the distance to the nearest wall; its width is twice that distance, its chord joins both contacts and separates the pores",
     persistence: "a throat is dissolved where its half width exceeds this share of the smaller inscribed radius",
     area: "of the pore region between walls and chords, in closed form; a volume per depth",
-    length: "from pore center to pore center by way of the middle of the throat",
+    length: "from pore center to pore center through the middle of the throat",
     curvature: "of the walls at both contacts, above 0 where the solid is convex; empty at an edge",
     conductance: "flow per depth times viscosity over pressure difference, by lubrication along arcs that meet both walls at right angles, from pore center to pore center; permeabilities are within 5 % of Stokes flow for random packs above a solid fraction of 0.3",
     entry_pressure: "tension times the largest curvature of a meniscus that passes the throat in drainage, at the receding angle",
     sequence: "number of the event, from 1 on in the last half cycle, by which the invading phase came to hold more than half of the pore; 0 for what is filled at the beginning through an opening of the inlet; empty where none did",
-    trapped: "more than half of the pore holds defending phase without a way to the outlet",
+    trapped: "more than half of the pore holds defending phase without a path to the outlet",
     openpnm: "openpnm.csv is for a depth of 1 m: volumes are areas times 1 m, cross sections widths times 1 m, and conductances those of the viscosity of the wetting phase, 1 Pa s where none is given",
 };
 
@@ -167,7 +167,7 @@ pub(crate) fn network_json(model: &Model) -> Document {
         throats: pores.throats.len(),
         regions: network.regions.len(),
         porosity: config.porosity,
-        units: "SI; the unit stands at the end of each column of pores.csv and throats.csv",
+        units: "SI; the unit is at the end of each column name of pores.csv and throats.csv",
         definitions: DEFINITIONS,
         half_cycles: model.cycles.as_ref().map_or_else(Vec::new, half_cycles),
         merges: Merges {

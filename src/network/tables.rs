@@ -26,8 +26,8 @@ pub(super) fn flags(name: &'static str, values: impl IntoIterator<Item = bool>) 
     Column { name, cells: Cells::Flags(values.into_iter().collect()) }
 }
 
-pub(super) fn places(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
-    Column { name, cells: Cells::Places(values.into_iter().collect()) }
+pub(super) fn indices(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
+    Column { name, cells: Cells::Indices(values.into_iter().collect()) }
 }
 
 pub(super) fn words(name: &'static str, values: impl IntoIterator<Item = &'static str>) -> Column {
@@ -151,7 +151,7 @@ fn state_columns(config: &Configuration, invading: FluidPhase, states: &[PoreSta
         // With a displacement, as all that follow: phase that holds more than half of the pore
         words("phase", states.iter().map(|state| state.fluid.name())),
         // Event of the last half cycle by which the invading phase held more than half; 0 at the start, empty if never
-        places("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
+        indices("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
         // Whether more than half is trapped defending phase
         flags("trapped", states.iter().map(|state| state.is_trapped)),
         numbers(
@@ -206,7 +206,7 @@ fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
     }
     if let Some(occupation) = occupation {
         // Event of the last half cycle by which it was passed
-        columns.push(places("sequence", sequences(config, occupation)));
+        columns.push(indices("sequence", sequences(config, occupation)));
     }
     Table { name: "throats", columns }
 }
@@ -259,7 +259,7 @@ pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
             // `burst`, `touch`, `overlap`; with `films` `snap-off`, `reconnection`; `beginning`: openings of the inlet filled, without a pressure
             words("event", all().map(|row| row.event.map_or(BEGINNING, |entry| entry.kind.name()))),
             // Passed throat; empty within a pore, or for a throat that the merge dissolved
-            places("throat", all().map(throat)),
+            indices("throat", all().map(throat)),
             // Capillary pressure of this event
             numbers("meniscus_pressure_Pa", pressures(|entry| entry.curvature)),
             // Applied capillary pressure: the extreme so far

@@ -3,7 +3,7 @@
 use super::flow::{LEAST_SOLID, drive};
 use super::model::Configuration;
 use crate::case::{SIDES, Side};
-use crate::interface::depth::odd;
+use crate::interface::depth::implausible;
 
 /// The names of both permeabilities.
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
@@ -44,7 +44,7 @@ fn open_beside(config: &Configuration, axis: usize) -> Option<String> {
         .collect();
     (!open.is_empty()).then(|| {
         format!(
-            "nothing flows along the open side{} {}: this is the permeability of the box as it is cut, not that of the solids; for that, make the sides \
+            "nothing flows along the open side{} {}: this is the permeability of the box as cut, not that of the solids; for that, make the sides \
              periodic or walls",
             if open.len() == 1 { "" } else { "s" },
             open.join(" and ")
@@ -55,7 +55,7 @@ fn open_beside(config: &Configuration, axis: usize) -> Option<String> {
 /// A depth far below or above the widths of all throats.
 fn odd_depth(config: &Configuration) -> Option<String> {
     let widths = || config.network.throats.iter().map(|throat| throat.width);
-    odd(config.network.depth?, widths().reduce(f64::min)?, widths().reduce(f64::max)?)
+    implausible(config.network.depth?, widths().reduce(f64::min)?, widths().reduce(f64::max)?)
 }
 
 /// Missing connection from the inlet to the outlet.

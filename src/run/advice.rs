@@ -160,7 +160,7 @@ fn sentence(advice: &Advice) -> String {
     let Advice { throats, coarse_throats: coarse, particles, .. } = *advice;
     if let Some(bond) = largest.map(|pore| pore.bond).filter(|bond| *bond > WEIGHTLESS) {
         return format!(
-            "Bo is {bond:.2} in the largest pore, and the network leaves gravity out: use the direct simulation"
+            "Bo is {bond:.2} in the largest pore, and the network neglects gravity: use the direct simulation"
         );
     }
     if coarse > 0 {
@@ -177,12 +177,12 @@ fn sentence(advice: &Advice) -> String {
              and events"
         ),
         Some(_) => format!(
-            "{across:.1} spacings across the narrowest throat: the direct simulation can answer; the network does in {:.1} s what is quasi-static \
+            "{across:.1} spacings across the narrowest throat: the direct simulation is feasible; the network computes quasi-static displacement in {:.1} s \
              (Ca below {QUASI_STATIC:.0e})",
             advice.network_s
         ),
         None => format!(
-            "use the network for what is quasi-static (Ca below {QUASI_STATIC:.0e}); a direct simulation of all takes {particles:.1e} particles for \
+            "use the network for quasi-static displacement (Ca below {QUASI_STATIC:.0e}); a full direct simulation takes {particles:.1e} particles for \
              {ACROSS:.0} spacings across the narrowest throat"
         ),
     }

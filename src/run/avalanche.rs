@@ -41,7 +41,7 @@ pub(crate) enum AvalancheError {
         pores: usize,
     },
     /// The requested event has happened before the first one.
-    #[error("this is so from the beginning, without an event; name a later one")]
+    #[error("this holds from the start, without an event; choose a later one")]
     FromTheBeginning,
     /// The case cannot be set up.
     #[error(transparent)]

@@ -105,7 +105,7 @@ pub fn execute(
     let steady = job.case.steady;
     let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
     let was_at_end = start != Start::New && simulation.is_at_end();
-    let started = if start == Start::New { simulation.begin() } else { simulation.go_on() };
+    let started = if start == Start::New { simulation.begin() } else { simulation.resume() };
     let ended = started.and_then(|()| simulation.run());
     let written = records.finish();
     let ended = ended.and_then(|outcome| written.map(|()| outcome));
@@ -113,7 +113,7 @@ pub fn execute(
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     report.cpu_s = records.processor_time();
     // The report of the run that reached the end has more: its wall time, its machine.
-    let is_told = was_at_end && report::is_of_the_end(&job.folder);
+    let is_told = was_at_end && report::is_final(&job.folder);
     let written = if is_told { Ok(()) } else { report.write(&job.folder) };
     // The record that could not be written is the error to report, not the report after it.
     ended?;
@@ -176,7 +176,7 @@ pub(super) fn report(
         expectations,
         numbers: numbers::numbers(case, length, fastest),
         length_of_numbers: length,
-        depth: case.about_depth(),
+        depth: case.depth_text(),
         case: case.clone(),
         resolved_case: resolved.to_owned(),
         machine: Machine::present(),

@@ -58,7 +58,7 @@ pub(crate) fn create(folder: &Path) -> Result<Claim, FolderError> {
 ///
 /// # Errors
 /// [`FolderError::InUse`], [`FolderError::NothingToResume`], [`FolderError::File`].
-pub(crate) fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
+pub(crate) fn reopen(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
     claim::existing(folder)?;
     let state = restart::path(run);
     if !state.exists() {
@@ -73,7 +73,7 @@ pub(crate) fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
 /// # Errors
 /// [`FolderError`] if there is none, if another process works in it, if it is damaged, or if it belongs to another case.
 pub(crate) fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), FolderError> {
-    let claim = take_up(folder, folder)?;
+    let claim = reopen(folder, folder)?;
     let saved = restart::load(folder)?;
     if saved.case_hash != case_hash {
         return Err(FolderError::OtherCase { folder: folder.to_path_buf(), saved: saved.case_hash, now: case_hash });

@@ -9,7 +9,7 @@ use crate::io::FileError;
 pub enum FolderError {
     /// There are files in it.
     #[error(
-        "the output folder {} is not empty; choose another one with --out DIR, go on with the run in it with --resume, or \
+        "the output folder {} is not empty; choose another one with --out DIR, continue its run with --resume, or \
          delete it", .0.display()
     )]
     NotEmpty(PathBuf),
@@ -36,7 +36,7 @@ pub enum FolderError {
     },
     /// Another process works in it.
     #[error(
-        "a run is going on in {}{by}; wait for it or stop it, or choose another folder with --out DIR", folder.display()
+        "a run is in progress in {}{by}; wait for it or stop it, or choose another folder with --out DIR", folder.display()
     )]
     InUse {
         /// The folder.

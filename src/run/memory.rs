@@ -13,7 +13,7 @@ const BYTES_PER_PARTICLE: f64 = 1600.0;
     "a spacing of {spacing:e} m gives {particles:.2e} particles, which need about {:.0} MiB of memory, and {:.0} MiB are available; a spacing of \
      {enough:.1e} m or more would do", needed / MEBIBYTE, available / MEBIBYTE
 )]
-pub struct NoRoom {
+pub struct InsufficientMemory {
     /// Spacing in m.
     spacing: f64,
     /// Number of particles.
@@ -29,15 +29,15 @@ pub struct NoRoom {
 /// Whether the memory (bytes) is too small for a pore of an area (m²) at a spacing (m).
 ///
 /// # Errors
-/// [`NoRoom`] if it is.
-pub(crate) fn holds(area: f64, spacing: f64, available: u64) -> Result<(), NoRoom> {
+/// [`InsufficientMemory`] if it is.
+pub(crate) fn check(area: f64, spacing: f64, available: u64) -> Result<(), InsufficientMemory> {
     let (particles, available) = (area / (spacing * spacing), available as f64);
     let needed = BYTES_PER_PARTICLE * particles;
     if needed <= available {
         return Ok(());
     }
     let enough = rounded_up((area * BYTES_PER_PARTICLE / available).sqrt());
-    Err(NoRoom { spacing, particles, needed, available, enough })
+    Err(InsufficientMemory { spacing, particles, needed, available, enough })
 }
 
 /// Rounded up to two digits.
@@ -85,12 +85,12 @@ mod tests {
     fn a_spacing_that_the_memory_does_not_hold_is_refused_with_one_that_it_holds() {
         let (area, available) = (1e-6, 150 << 20);
         // 10,000 particles need 15 MiB, a million a hundred times as much.
-        assert_eq!(holds(area, 1e-5, available), Ok(()));
-        let refused = holds(area, 1e-6, available).unwrap_err();
+        assert_eq!(check(area, 1e-5, available), Ok(()));
+        let refused = check(area, 1e-6, available).unwrap_err();
         let message = "a spacing of 1e-6 m gives 1.00e6 particles, which need about 1526 MiB of memory, and 150 MiB are available; a spacing of \
                     3.2e-6 m or more would do";
         assert_eq!(refused.to_string(), message);
-        assert_eq!(holds(area, refused.enough, available), Ok(()));
+        assert_eq!(check(area, refused.enough, available), Ok(()));
     }
 
     #[test]

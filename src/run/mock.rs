@@ -49,8 +49,8 @@ impl Solver for MockSolver {
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         if self.fails_after.is_some_and(|last| self.steps >= last) {
-            let place = Vec2::new(1.0, 0.0);
-            return Err(SolverError::BlowUp { what: "speed inf m/s".into(), time: self.time, step: self.steps, place });
+            let (what, position) = ("speed inf m/s".into(), Vec2::new(1.0, 0.0));
+            return Err(SolverError::BlowUp { what, time: self.time, step: self.steps, position });
         }
         let lands = self.time + STEP >= until;
         self.dt = if lands { until - self.time } else { STEP };

@@ -248,7 +248,7 @@ pub(crate) fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String,
 }
 
 /// Whether a folder has the report of a run that reached its end.
-pub(crate) fn is_of_the_end(folder: &Path) -> bool {
+pub(crate) fn is_final(folder: &Path) -> bool {
     #[derive(Deserialize)]
     struct Ending {
         status: Status,

@@ -1,6 +1,6 @@
 //! From a checked case to its solver: the only module that depends on both.
 
-use super::memory::{self, NoRoom};
+use super::memory::{self, InsufficientMemory};
 use crate::case::{Case, Facts, Model, Side, Sph, check_against};
 use crate::diagram::{Frame, Through};
 use crate::geometry::Geometry;
@@ -23,7 +23,7 @@ pub enum SetupError {
     Network(#[from] network::setup::SetupError),
     /// The direct simulation needs more memory than available.
     #[error("{0}")]
-    Memory(#[from] NoRoom),
+    Memory(#[from] InsufficientMemory),
 }
 
 impl SetupError {
@@ -52,7 +52,7 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
         Model::Sph(sph) => {
             memory(case, sph)?;
             let solver = sph::setup::build_watched(case, sph, packed)?;
-            Ok(Box::new(solver.measuring(benchmarks::asked_for(&sph.measure))))
+            Ok(Box::new(solver.measuring(benchmarks::requested_groups(&sph.measure))))
         }
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
         Model::Network(network) => Ok(network::setup::build(case, network)?),
@@ -65,7 +65,7 @@ pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
         Model::Sph(sph) => {
             memory(case, sph)?;
             let solver = sph::setup::build_to_resume(case, sph)?;
-            Ok(Box::new(solver.measuring(benchmarks::asked_for(&sph.measure))))
+            Ok(Box::new(solver.measuring(benchmarks::requested_groups(&sph.measure))))
         }
         Model::ThinFilm(_) | Model::Network(_) => build(case),
     }
@@ -77,9 +77,9 @@ fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
     let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
     let area = size.x * size.y;
     // The pore is measured only if the whole domain would not fit.
-    if memory::holds(area, sph.spacing, available).is_err() {
+    if memory::check(area, sph.spacing, available).is_err() {
         let porosity = sph::setup::geometry(case, sph)?.porosity().value;
-        memory::holds(porosity * area, sph.spacing, available)?;
+        memory::check(porosity * area, sph.spacing, available)?;
     }
     Ok(())
 }
@@ -164,7 +164,7 @@ fn not_at_rest(sph: &Sph) -> Vec<String> {
     let chords = start.state.menisci.iter().filter(|meniscus| meniscus.curvature_per_m.is_none()).count();
     if chords > 0 {
         found.push(format!(
-            "{chords} menisci of sph.initial.network are not known, and chords stand for them: they are not at rest"
+            "{chords} menisci of sph.initial.network are unknown and replaced by chords: they are not at rest"
         ));
     }
     found

@@ -92,7 +92,7 @@ impl Simulation<'_> {
     }
 
     /// Rewrites the files that do not depend on the state: `solid.vtu` and `units.json`.
-    pub(crate) fn go_on(&mut self) -> Result<(), FileError> {
+    pub(crate) fn resume(&mut self) -> Result<(), FileError> {
         self.records.write_outline(self.solver)?;
         self.records.write_units(self.solver)
     }

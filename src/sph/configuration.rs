@@ -59,8 +59,8 @@ impl Configuration {
     }
 
     /// Whether the divergence at `x` (m) counts: deep in a buffer the sums reach no fluid, and at its far end they lack neighbors.
-    pub(crate) fn sees_the_fluid(&self, x: Vec2) -> bool {
+    pub(crate) fn is_near_fluid(&self, x: Vec2) -> bool {
         let support = self.method.kernel.support();
-        self.open.sides.iter().all(|side| side.beyond(x) < support)
+        self.open.sides.iter().all(|side| side.overshoot(x) < support)
     }
 }

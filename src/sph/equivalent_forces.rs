@@ -18,7 +18,7 @@ pub fn volume_forces(flow: &Flow) -> [Vec<Vec2>; 2] {
     let unit_normal = curvature::unit_normal(&f.normal[..fluids], h);
     // A line that the jump does not track is not driven: it has its present angle.
     let angle = |mean: &MeanLine| {
-        nearest(&flow.lines, &flow.config.domain, mean.place(), mean.outward(), LINE_REACH * h)
+        nearest(&flow.lines, &flow.config.domain, mean.position(), mean.outward(), LINE_REACH * h)
             .map_or_else(|| mean.present(None), |line| line.angle)
     };
     let angles = |lines: &[MeanLine]| lines.iter().map(angle).collect();

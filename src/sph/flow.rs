@@ -121,7 +121,7 @@ impl Flow {
         if state.steps.is_multiple_of(REORDER_EVERY) {
             order_fluid(&mut state.particles, config);
         }
-        neighborhood.find_anew(&state.particles.position, &config.domain, &config.method.kernel);
+        neighborhood.update(&state.particles.position, &config.domain, &config.method.kernel);
         let after = Instant::now();
         let found = View { config, state, neighborhood, fields: &() };
         fields.bulk = BulkFields::of(&found);

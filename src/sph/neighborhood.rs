@@ -20,10 +20,10 @@ pub struct Neighborhood {
 
 impl Neighborhood {
     /// Recomputes pairs and images for particles at `position` (m).
-    pub(crate) fn find_anew(&mut self, position: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
+    pub(crate) fn update(&mut self, position: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
         let mut points = position.to_vec();
         self.images = Images::append(&mut points, domain, kernel.support());
         let cells = Cells::build(&points, domain, kernel.support());
-        self.pairs.find_anew(&cells, &points, position.len(), domain, kernel);
+        self.pairs.update(&cells, &points, position.len(), domain, kernel);
     }
 }

@@ -102,14 +102,14 @@ impl Packing<'_> {
         let disturbed =
             fluid.iter().zip(&moves).filter(|(_, m)| m.by.norm() > DISTURBED * self.spacing).map(|(x, _)| *x);
         let band = Band::around(disturbed, BAND * self.spacing, self.domain);
-        let near: Vec<usize> = (0..fluid.len()).filter(|&a| band.holds(fluid[a])).collect();
+        let near: Vec<usize> = (0..fluid.len()).filter(|&a| band.contains(fluid[a])).collect();
         if near.len() == fluid.len() {
             return self.pack_all(fluid, self.fixed, done);
         }
         let mut packed: Vec<Vec2> = near.iter().map(|&a| fluid[a]).collect();
-        let far = fluid.iter().filter(|x| !band.holds(**x)).copied().collect::<Vec<_>>();
+        let far = fluid.iter().filter(|x| !band.contains(**x)).copied().collect::<Vec<_>>();
         let in_reach = band.grown(self.kernel.support());
-        let fixed: Vec<Vec2> = self.fixed.iter().chain(&far).filter(|x| in_reach.holds(**x)).copied().collect();
+        let fixed: Vec<Vec2> = self.fixed.iter().chain(&far).filter(|x| in_reach.contains(**x)).copied().collect();
         self.pack_all(&mut packed, &fixed, done);
         near.iter().zip(packed).for_each(|(&a, x)| fluid[a] = x);
     }
@@ -161,7 +161,7 @@ impl Packing<'_> {
     fn even(&self, around: &Round, solve: &mut PressureSolve, moves: &mut [Move]) {
         let Round { points, count, images, cells } = around;
         let pairs = &mut Pairs::default();
-        pairs.find_anew(cells, points, *count, self.domain, self.kernel);
+        pairs.update(cells, points, *count, self.domain, self.kernel);
         let (n, fluids) = (*count, moves.len());
         let mut volume = density::volume(pairs, fluids);
         volume.resize(n, self.volume);
@@ -182,7 +182,7 @@ impl Packing<'_> {
         let mut potential = vec![0.0; n];
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
         solve.solve(&unknowns, &volume[..n], &mut [system]);
-        let down = pressure_gradient::down(pairs, &volume, &ones, &images.field(potential), fluids);
+        let down = pressure_gradient::descent(pairs, &volume, &ones, &images.field(potential), fluids);
         moves.iter_mut().zip(&down).for_each(|(m, down)| m.by += down);
     }
 

@@ -51,12 +51,12 @@ impl Pairs {
     /// Finds the neighbors of the first `count` of `points` among all of them.
     pub fn find(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
         let mut pairs = Self::default();
-        pairs.find_anew(&Cells::build(points, domain, kernel.support()), points, count, domain, kernel);
+        pairs.update(&Cells::build(points, domain, kernel.support()), points, count, domain, kernel);
         pairs
     }
 
     /// [`Pairs::find`] that reuses the memory of the previous pairs, with given `cells` of all `points`.
-    pub(in crate::sph) fn find_anew(
+    pub(in crate::sph) fn update(
         &mut self,
         cells: &Cells,
         points: &[Vec2],

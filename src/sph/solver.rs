@@ -26,7 +26,7 @@ pub struct SphSolver {
     /// Areas of the phases at time zero.
     start: PhaseAreas,
     /// Observation of the present state, computed on first use.
-    seen: OnceLock<Observation>,
+    observed: OnceLock<Observation>,
     surroundings: Surroundings,
     /// The flows with a frozen interface, one after the other, and the number of the present one.
     frozen: Option<(FrozenInterface, usize)>,
@@ -35,7 +35,7 @@ pub struct SphSolver {
 }
 
 /// Generator of a document from the particles and the capillary pressure in Pa.
-pub(crate) type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
+pub(crate) type StateExport = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
 
 /// The fixed surroundings of the flow.
 pub(crate) struct Surroundings {
@@ -56,7 +56,7 @@ pub(crate) struct Surroundings {
     /// Spacing of grid nodes in m.
     pub(crate) grid_spacing: f64,
     /// If the flow started from the state of a network: the state that it returns.
-    pub(crate) hand_back: Option<HandBack>,
+    pub(crate) state_export: Option<StateExport>,
 }
 
 impl SphSolver {
@@ -74,10 +74,9 @@ impl SphSolver {
 
     /// A solver at time zero.
     pub(crate) fn new(flow: Flow, surroundings: Surroundings) -> Self {
-        let seen = Observation::of(&flow, &surroundings.wall_samples);
-        let groups = Vec::new();
-        let mut solver =
-            Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings, frozen: None, groups };
+        let observed = Observation::of(&flow, &surroundings.wall_samples);
+        let (start, observed) = (observed.areas, OnceLock::from(observed));
+        let mut solver = Self { flow, start, observed, surroundings, frozen: None, groups: Vec::new() };
         solver.update_force();
         solver
     }
@@ -114,7 +113,7 @@ impl SphSolver {
 
     /// Observation of the present flow, computed at most once per step for series, files and report.
     pub(crate) fn observe(&self) -> &Observation {
-        self.seen.get_or_init(|| Observation::of(&self.flow, &self.surroundings.wall_samples))
+        self.observed.get_or_init(|| Observation::of(&self.flow, &self.surroundings.wall_samples))
     }
 
     fn kinetic_energy(&self) -> f64 {
@@ -127,7 +126,7 @@ impl SphSolver {
         let around = &self.surroundings;
         Subject {
             flow: &self.flow,
-            seen: self.observe(),
+            observed: self.observe(),
             start: self.start,
             series,
             discs: &around.discs,
@@ -154,7 +153,7 @@ impl Solver for SphSolver {
     }
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
-        self.seen.take();
+        self.observed.take();
         self.update_flow();
         self.update_force();
         let time = self.flow.state.time;
@@ -258,9 +257,8 @@ impl Solver for SphSolver {
     }
 
     fn results(&self) -> Results<'_> {
-        let of_now =
-            |hand_back: &HandBack| hand_back(&self.flow.state.particles, self.observe().capillary_pressure.value);
-        let back = self.surroundings.hand_back.as_ref().map(of_now);
+        let of_now = |export: &StateExport| export(&self.flow.state.particles, self.observe().capillary_pressure.value);
+        let back = self.surroundings.state_export.as_ref().map(of_now);
         Results { documents: back.into_iter().collect(), ..Results::default() }
     }
 
@@ -275,7 +273,7 @@ impl Solver for SphSolver {
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
-        self.seen.take();
+        self.observed.take();
         let unreadable = |error: postcard::Error| StateError(error.to_string());
         let (start, mut flow) = postcard::take_from_bytes(state).map_err(unreadable)?;
         if let Some((interface, present)) = &mut self.frozen {

@@ -46,6 +46,6 @@ impl<'a, F> View<'a, F> {
 
     /// The mean pressure gradient −∇P in Pa/m that drives the given flows.
     pub fn driving_gradient(&self) -> Vec2 {
-        self.given_flows().map(|(side, given)| given.gradient * side.way()).sum()
+        self.given_flows().map(|(side, given)| given.gradient * side.inward()).sum()
     }
 }

@@ -137,8 +137,8 @@ fn parasitic_currents(flow: &Flow, observed: &Observation, series: &Series) -> O
     let speed = speeds.into_iter().fold(0.0, f64::max);
     (speed > LARGEST_CURRENT * scale).then(|| {
         format!(
-            "a drop that keeps its shape has currents of up to {speed:.1e} m/s, Ca = {:.1e}, {:.1} % of sqrt(tension / (density R)): the surface force \
-             drives them where a liquid is thin (Oh = {:.1e}), and slower motions are not resolved; compare with a larger viscosity",
+            "a drop of constant shape has parasitic currents of up to {speed:.1e} m/s, Ca = {:.1e}, {:.1} % of sqrt(tension / (density R)): the surface force \
+             drives them in a liquid of low viscosity (Oh = {:.1e}), and slower motions are not resolved; compare with a larger viscosity",
             fluid.viscosity * speed / m.tension,
             100.0 * speed / scale,
             fluid.viscosity / (fluid.density * m.tension * radius).sqrt()

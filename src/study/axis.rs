@@ -65,7 +65,7 @@ fn refuse_foreign_keys(checker: &mut Checker, raw: &RawAxis, kind: &str, at: &st
     for (key, given, kinds) in keys {
         if given && !kinds.contains(&kind) {
             let help = format!("it goes with `{}`", kinds.join("` or `"));
-            checker.refuse(format!("{at}.{key}"), format!("`{key}` does not go with `{kind}`"), help);
+            checker.refuse(format!("{at}.{key}"), format!("`{key}` does not apply to `{kind}`"), help);
         }
     }
 }
@@ -132,7 +132,7 @@ fn target(checker: &mut Checker, raw: &RawColumn, at: &str) -> Target {
             if raw.also.is_some() {
                 checker.refuse(
                     format!("{at}.also"),
-                    "`also` goes with `key`, found none",
+                    "`also` requires `key`, found none",
                     "name the first key in `key`",
                 );
             }

@@ -61,7 +61,7 @@ impl Program {
 }
 
 /// The standard output of a process, on one line.
-pub(crate) fn words_of(output: &Output) -> String {
+pub(crate) fn output_line(output: &Output) -> String {
     one_line(&output.stdout)
 }
 

@@ -38,7 +38,7 @@ impl Convergence {
     }
 
     /// Whether the error decreases from each point to the next, as far as it is above the floor.
-    pub(crate) fn falls(&self) -> bool {
+    pub(crate) fn decreases(&self) -> bool {
         self.points.windows(2).all(|pair| pair[1].1 < pair[0].1 || pair[1].1 <= self.floor)
     }
 
@@ -120,7 +120,7 @@ pub(crate) fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) 
             along: trend.along.clone(),
             floor: trend.floor.max(rounding),
             complete: points.len() == results.len(),
-            ended: results.iter().all(|result| result.standing.report().is_some()),
+            ended: results.iter().all(|result| result.state.report().is_some()),
             points,
         }
     };
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(found[0].points.iter().map(|point| point.0).collect::<Vec<_>>(), [0.4, 0.2, 0.1]);
         for (convergence, order) in found.iter().zip([2.0, 1.0]) {
             // Rounding of 30 - 0.01 leaves twelve digits of the error.
-            assert!((convergence.order().unwrap() - order).abs() < 1.0e-9 && convergence.falls());
+            assert!((convergence.order().unwrap() - order).abs() < 1.0e-9 && convergence.decreases());
         }
         let verdicts: Vec<Verdict> = judgments(&study, &results).iter().map(|judgment| judgment.verdict).collect();
         assert_eq!(verdicts, [Verdict::Met, Verdict::Missed]);

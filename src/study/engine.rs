@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::child::Program;
 use super::estimate::{Cores, Estimate};
 use super::folder::StudyFolder;
-use super::results::{Standing, is_complete, standing};
+use super::results::{RunState, is_complete, run_state};
 use super::run::{PlannedRun, Run};
 use crate::io::{FileError, atomic};
 use crate::run::memory;
@@ -190,9 +190,9 @@ fn end_of(work: &Work<'_>, number: usize, status: ExitStatus) -> End {
         Some(code::DONE) => End::Complete,
         Some(code::INTERRUPTED) => End::Interrupted,
         Some(code::FAILED) => {
-            let standing = standing(&work.folder.run(&planned.run.name), &planned.resolved);
-            let why = match standing {
-                Standing::Failed(report) => report.error,
+            let state = run_state(&work.folder.run(&planned.run.name), &planned.resolved);
+            let why = match state {
+                RunState::Failed(report) => report.error,
                 _ => None,
             };
             End::Failed(why.unwrap_or_else(|| format!("the solver failed; see {}", log.display())))

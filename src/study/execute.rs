@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::comparison::{self, PlannedNetwork};
 use super::engine::End;
 use super::folder::{FolderError, StudyFolder};
-use super::results::{is_complete, standing};
+use super::results::{is_complete, run_state};
 use super::run::PlannedRun;
 use crate::input::InputError;
 use crate::io::{FileError, restart};
@@ -46,7 +46,7 @@ pub(crate) fn run(
     if is_complete(&path, planned) {
         return Ok(End::WasComplete);
     }
-    if standing(&path, &planned.resolved).report().is_none() {
+    if run_state(&path, &planned.resolved).report().is_none() {
         let report = path.join(REPORT);
         gone(&report, std::fs::remove_file(&report))?;
     }

@@ -22,7 +22,7 @@ const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// There are other files in it.
-    #[error("the folder {} is not empty and no study is in it; choose another one with --out DIR", .0.display())]
+    #[error("the folder {} is not empty and contains no study; choose another one with --out DIR", .0.display())]
     Foreign(PathBuf),
     /// Another process works in it.
     #[error("the study in {} is being worked on by another process{by}; wait for it, or stop it", folder.display())]

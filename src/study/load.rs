@@ -83,8 +83,8 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
 fn read_axes(checker: &mut Checker, raw: &RawStudy, folder: &Path) -> (Vec<Option<Axis>>, Option<Sampling>) {
     let written = raw.axis.as_deref().unwrap_or_default();
     let samples = sampled(checker, written, raw.sampling.as_ref());
-    let (place, mut samples, sampling) = match samples {
-        Some(Some(SampledAxis { axis, place, sampling })) => (Some(place), Some(axis), Some(sampling)),
+    let (axis_number, mut samples, sampling) = match samples {
+        Some(Some(SampledAxis { axis, axis_number, sampling })) => (Some(axis_number), Some(axis), Some(sampling)),
         Some(None) => (None, None, None),
         None => (written.iter().position(|raw| raw.distribution.is_some()), None, None),
     };
@@ -92,7 +92,7 @@ fn read_axes(checker: &mut Checker, raw: &RawStudy, folder: &Path) -> (Vec<Optio
     for (index, raw) in written.iter().enumerate() {
         if raw.distribution.is_none() {
             axes.push(axis(checker, raw, index, folder));
-        } else if Some(index) == place {
+        } else if Some(index) == axis_number {
             axes.push(samples.take());
         }
     }

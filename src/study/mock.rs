@@ -2,7 +2,7 @@
 
 use super::definition::Study;
 use super::load::load;
-use super::results::{RunReport, RunResult, Standing, Total, Unknowns};
+use super::results::{RunReport, RunResult, RunState, Total, Unknowns};
 use super::run::Run;
 use super::runs::runs;
 use crate::run::report::{Motion, Reading, Status};
@@ -17,7 +17,7 @@ pub(crate) fn study(text: &str) -> Study {
 
 /// Gives the measure `m` of a complete run a rate of change in degrees per s.
 pub(crate) fn set_moving(result: &mut RunResult, rate: f64) {
-    let Standing::Complete(report) = &mut result.standing else { panic!("complete") };
+    let RunState::Complete(report) = &mut result.state else { panic!("complete") };
     report.measures.get_mut("m").unwrap().not_at_rest = Some(Motion { rate, unit: "deg/s".into() });
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunRes
             cpu_s: None,
             solver: Unknowns { unknowns: 100, wall_time_s: Some(1.25) },
         };
-        RunResult { run, standing: Standing::Complete(Box::new(report)) }
+        RunResult { run, state: RunState::Complete(Box::new(report)) }
     };
     runs(study).into_iter().map(result).collect()
 }

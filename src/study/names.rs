@@ -81,7 +81,7 @@ impl Names<'_> {
                 continue;
             };
             if self.values(&name).is_some_and(|values| !values.iter().any(|other| same(other, value))) {
-                checker.refuse(&at, format!("`{name}` never is {}", shown(value)), "name one of its values");
+                checker.refuse(&at, format!("`{name}` is never {}", shown(value)), "name one of its values");
                 chosen = None;
             }
             if let Some(chosen) = &mut chosen {

@@ -34,7 +34,7 @@ pub enum NumberedError {
         index: usize,
     },
     /// The case of the run is not the requested one.
-    #[error("the study or a case was changed while the study ran: run {0} is another one now")]
+    #[error("the study or a case was changed while the study ran: run {0} is now a different one")]
     Changed(usize),
 }
 

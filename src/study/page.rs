@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::convergence::Convergence;
 use super::definition::Study;
 use super::page_of_samples::Uncertainty;
-use super::results::{RunResult, Standing, moving};
+use super::results::{RunResult, RunState, moving};
 use super::table::{Table, shown_measures};
 use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
@@ -40,7 +40,7 @@ pub(crate) struct Content<'a> {
 /// The page as HTML.
 pub(crate) fn page(content: &Content<'_>) -> String {
     let title = escaped(&content.study.title);
-    let done = content.results.iter().filter(|result| result.standing.report().is_some()).count();
+    let done = content.results.iter().filter(|result| result.state.report().is_some()).count();
     let moving = match moving(content.results, &shown_measures(content.study, content.results)) {
         0 => String::new(),
         some => format!(" {some} of them with measures not at rest, marked in the table and hollow in curves."),
@@ -81,8 +81,8 @@ pub(crate) fn page(content: &Content<'_>) -> String {
 fn push_failures(html: &mut String, results: &[RunResult]) {
     let failed: Vec<(&str, &str)> = results
         .iter()
-        .filter_map(|result| match &result.standing {
-            Standing::Failed(report) => Some((result.run.name.as_str(), report.error.as_deref().unwrap_or_default())),
+        .filter_map(|result| match &result.state {
+            RunState::Failed(report) => Some((result.run.name.as_str(), report.error.as_deref().unwrap_or_default())),
             _ => None,
         })
         .collect();
@@ -142,7 +142,7 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
 
 fn push_pictures(html: &mut String, results: &[RunResult]) {
     html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
-    for result in results.iter().filter(|result| result.standing.report().is_some()) {
+    for result in results.iter().filter(|result| result.state.report().is_some()) {
         let (name, caption) = (escaped(&result.run.name), caption(result));
         // Writing to a string cannot fail.
         let _ = writeln!(

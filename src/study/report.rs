@@ -12,7 +12,7 @@ use super::folder::StudyFolder;
 use super::page::{Content, page};
 use super::page_of_samples::Uncertainty;
 use super::resolution::Resolution;
-use super::results::{RUN_NUMBERS, RunResult, Standing, measures, moving, results};
+use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results};
 use super::run::PlannedRun;
 use super::table::{self, Table};
 use super::values::shown;
@@ -59,18 +59,18 @@ pub(crate) struct StudyReport {
 }
 
 /// The diagrams in the folder of a complete run, by name.
-fn diagrams_of(folder: &Path, standing: &Standing) -> Vec<String> {
+fn diagrams_of(folder: &Path, state: &RunState) -> Vec<String> {
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let names = files.filter_map(|file| file.file_name().into_string().ok());
     let mut found: Vec<String> = names.filter(|name| name.starts_with("diagram-") && name.ends_with(".svg")).collect();
-    found.retain(|_| standing.report().is_some());
+    found.retain(|_| state.report().is_some());
     found.sort();
     found
 }
 
 /// The curves of each complete comparison; those without a pressure have none.
 fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder) -> Vec<(&'r RunResult, String)> {
-    let complete = results.iter().filter(|result| study.compare.is_some() && result.standing.report().is_some());
+    let complete = results.iter().filter(|result| study.compare.is_some() && result.state.report().is_some());
     let curves = |result: &RunResult| std::fs::read_to_string(folder.run(&result.run.name).join(CURVES));
     complete.map(|result| (result, curves(result).unwrap_or_default())).collect()
 }
@@ -84,7 +84,7 @@ fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Resu
         let assignment = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
         columns.filter(|name| varies(name)).filter_map(assignment).collect::<Vec<_>>().join(", ")
     };
-    let complete = results.iter().filter(|result| study.compare.is_none() && result.standing.report().is_some());
+    let complete = results.iter().filter(|result| study.compare.is_none() && result.state.report().is_some());
     let runs: Vec<(String, PathBuf)> = complete.map(|result| (name(result), folder.run(&result.run.name))).collect();
     let runs: Vec<(String, &Path)> = runs.iter().map(|(name, folder)| (name.clone(), folder.as_path())).collect();
     Ok(if runs.len() > 1 { pressure_curves::overlay(&runs)? } else { None })
@@ -140,7 +140,7 @@ pub(crate) fn report_of(
         }
     }
     let diagrams: Vec<Vec<String>> =
-        results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.standing)).collect();
+        results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.state)).collect();
     let comparisons = comparisons(study, &results, folder);
     let pressures = pressures(study, &results, folder)?;
     if let Some(text) = &pressures {
@@ -189,7 +189,7 @@ fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::super::mock::{complete, study};
-    use super::super::results::Standing;
+    use super::super::results::RunState;
     use super::*;
 
     #[test]
@@ -200,7 +200,7 @@ mod tests {
         );
         let mut results = complete(&study, |_| 1.0);
         assert_eq!(unknown(&study, &[]), Vec::<String>::new());
-        let Standing::Complete(report) = &mut results[0].standing else { panic!("complete") };
+        let RunState::Complete(report) = &mut results[0].state else { panic!("complete") };
         report.measures.insert("velocity-error".into(), report.measures["m"].clone());
         assert_eq!(
             unknown(&study, &results),

@@ -55,7 +55,7 @@ pub(crate) struct Unknowns {
 
 /// The state of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Standing {
+pub(crate) enum RunState {
     /// Nothing was done, or only with another case.
     New,
     /// It was started.
@@ -66,7 +66,7 @@ pub(crate) enum Standing {
     Complete(Box<RunReport>),
 }
 
-impl Standing {
+impl RunState {
     /// The state in one word, for tables.
     pub(crate) fn word(&self) -> &'static str {
         match self {
@@ -87,18 +87,18 @@ impl Standing {
 }
 
 /// The state of the run in a folder, if its case is the one given by `resolved`.
-pub(crate) fn standing(folder: &Path, resolved: &str) -> Standing {
+pub(crate) fn run_state(folder: &Path, resolved: &str) -> RunState {
     let report: Option<RunReport> =
         std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
     match report {
-        Some(report) if report.resolved_case != resolved => Standing::New,
+        Some(report) if report.resolved_case != resolved => RunState::New,
         Some(report) => match report.status {
-            Status::Done | Status::ExpectationFailed => Standing::Complete(Box::new(report)),
-            Status::Failed => Standing::Failed(Box::new(report)),
-            Status::Interrupted => Standing::Partial,
+            Status::Done | Status::ExpectationFailed => RunState::Complete(Box::new(report)),
+            Status::Failed => RunState::Failed(Box::new(report)),
+            Status::Interrupted => RunState::Partial,
         },
-        None if [folder, &folder.join(DIRECT_RUN)].iter().any(|it| restart::path(it).exists()) => Standing::Partial,
-        None => Standing::New,
+        None if [folder, &folder.join(DIRECT_RUN)].iter().any(|it| restart::path(it).exists()) => RunState::Partial,
+        None => RunState::New,
     }
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn standing(folder: &Path, resolved: &str) -> Standing {
 /// written before its report.
 pub(crate) fn is_complete(folder: &Path, planned: &PlannedRun) -> bool {
     let is_drawn = planned.network.is_some() || folder.join("picture.png").exists();
-    is_drawn && standing(folder, &planned.resolved).report().is_some()
+    is_drawn && run_state(folder, &planned.resolved).report().is_some()
 }
 
 /// A run with its state.
@@ -115,7 +115,7 @@ pub(crate) struct RunResult {
     /// The run.
     pub(crate) run: Run,
     /// Its state.
-    pub(crate) standing: Standing,
+    pub(crate) state: RunState,
 }
 
 impl RunResult {
@@ -124,7 +124,7 @@ impl RunResult {
         if let Some(value) = self.run.value(name) {
             return super::values::number_of(value);
         }
-        let report = self.standing.report()?;
+        let report = self.state.report()?;
         match name {
             "steps" => Some(report.steps as f64),
             "unknowns" => Some(report.solver.unknowns as f64),
@@ -137,7 +137,7 @@ impl RunResult {
 
     /// The uncertainty of a measure.
     pub(crate) fn uncertainty(&self, measure: &str) -> Option<f64> {
-        self.standing.report()?.measures.get(measure)?.uncertainty
+        self.state.report()?.measures.get(measure)?.uncertainty
     }
 }
 
@@ -147,12 +147,12 @@ const ROUNDING: f64 = 1.0e-11;
 impl RunResult {
     /// How a measure still moved at the end of its run, if by more than its uncertainty.
     pub(crate) fn motion(&self, measure: &str) -> Option<&Motion> {
-        self.standing.report()?.measures.get(measure)?.not_at_rest.as_ref()
+        self.state.report()?.measures.get(measure)?.not_at_rest.as_ref()
     }
 
     /// The rounding error of a measure: a fraction of its value, of its `reference` or, for a dimensionless number, of 1.
     pub(crate) fn rounding(&self, measure: &str, reference: f64) -> f64 {
-        let reading = self.standing.report().and_then(|report| report.measures.get(measure));
+        let reading = self.state.report().and_then(|report| report.measures.get(measure));
         let one = if reading.is_some_and(|reading| reading.unit.is_empty()) { 1.0 } else { 0.0 };
         ROUNDING * self.number(measure).unwrap_or(0.0).abs().max(reference.abs()).max(one)
     }
@@ -167,13 +167,13 @@ pub(crate) fn moving(results: &[RunResult], measures: &[String]) -> usize {
 pub(crate) fn results(runs: &[PlannedRun], folder: &StudyFolder) -> Vec<RunResult> {
     let result = |planned: &PlannedRun| RunResult {
         run: planned.run.clone(),
-        standing: standing(&folder.run(&planned.run.name), &planned.resolved),
+        state: run_state(&folder.run(&planned.run.name), &planned.resolved),
     };
     runs.iter().map(result).collect()
 }
 
 /// The measures of all complete runs with their units, by name.
 pub(crate) fn measures(results: &[RunResult]) -> BTreeMap<String, String> {
-    let reports = results.iter().filter_map(|result| result.standing.report());
+    let reports = results.iter().filter_map(|result| result.state.report());
     reports.flat_map(|report| report.measures.iter().map(|(name, m)| (name.clone(), m.unit.clone()))).collect()
 }

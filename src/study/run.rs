@@ -141,7 +141,7 @@ impl Run {
         };
         for mistake in error.mistakes {
             let set_here = assignments().find(|one| mistake.name == format!("--set {}", one.text));
-            let is_missing = |case: &Path| mistake.place.is_none() && mistake.name == case.display().to_string();
+            let is_missing = |case: &Path| mistake.location.is_none() && mistake.name == case.display().to_string();
             let missing_case = cases().find(|(case, _)| is_missing(case));
             let problem = match set_here {
                 Some(one) if one.origin.ends_with(OF_DISTRIBUTION) => {

@@ -101,7 +101,7 @@ impl Mistakes {
             // Samples of a distribution differ in their values, and so in their messages.
             let is_sample = mistake.message.starts_with(SAMPLE_MISTAKE);
             let same = self.found.iter().position(|other| {
-                (&other.name, other.place) == (&mistake.name, mistake.place)
+                (&other.name, other.location) == (&mistake.name, mistake.location)
                     && (other.message == mistake.message || is_sample && other.message.starts_with(SAMPLE_MISTAKE))
             });
             match same {

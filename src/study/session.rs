@@ -54,9 +54,9 @@ impl Session {
                 "index": result.run.index,
                 "name": result.run.name,
                 "folder": self.folder.run(&result.run.name),
-                "status": result.standing.word(),
+                "status": result.state.word(),
                 "parameters": parameters.collect::<serde_json::Map<_, _>>(),
-                "measures": result.standing.report().map(|report| &report.measures),
+                "measures": result.state.report().map(|report| &report.measures),
             })
         });
         Ok(Value::Array(rows.collect()))

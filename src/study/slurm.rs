@@ -108,7 +108,7 @@ pub(crate) fn submit(array: &Array<'_>) -> Result<String, SlurmError> {
         let said = super::child::errors_of(&output);
         return Err(SlurmError::Refused { script: path, said });
     }
-    Ok(super::child::words_of(&output))
+    Ok(super::child::output_line(&output))
 }
 
 /// `1-3,7` for 1, 2, 3, 7.

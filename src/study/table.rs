@@ -70,7 +70,7 @@ pub(crate) fn full(study: &Study, results: &[RunResult], resolution: &Resolution
     let row = |result: &RunResult| {
         let mut row = vec![result.run.name.clone()];
         row.extend(result.run.parameters.iter().map(|parameter| shown(&parameter.value)));
-        row.push(result.standing.word().to_owned());
+        row.push(result.state.word().to_owned());
         for name in &names {
             row.push(text(result.number(name)));
             if has_uncertainty(name) {
@@ -114,7 +114,7 @@ pub(crate) fn short(study: &Study, results: &[RunResult], resolution: &Resolutio
     };
     let row = |result: &RunResult| {
         let mut row: Vec<String> = result.run.parameters.iter().map(|parameter| shown(&parameter.value)).collect();
-        row.push(result.standing.word().to_owned());
+        row.push(result.state.word().to_owned());
         row.extend(names.iter().map(|name| cell(result, name)));
         row
     };
@@ -154,7 +154,7 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::super::mock::{complete, study};
-    use super::super::results::Standing;
+    use super::super::results::RunState;
     use super::*;
 
     #[test]
@@ -163,7 +163,7 @@ mod tests {
             "[[axis]]\nkey = 'dx'\nvalues = [1e-5, 0.25]\n[report]\nmeasures = ['m', 'steps', 'wall-time-s', 'other']\n",
         );
         let mut results = complete(&study, |_| 1.0 / 3.0);
-        results[1].standing = Standing::Partial;
+        results[1].state = RunState::Partial;
         let csv = String::from_utf8(full(&study, &results, &Resolution::of(&study, &results)).csv().unwrap()).unwrap();
         assert_eq!(
             csv,

@@ -61,7 +61,7 @@ fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
     let value = result.run.quantity(&expected.value);
     let tolerance = result.run.quantity(&expected.tolerance);
     let found = result.number(&expected.measure);
-    let verdict = match (result.standing.report(), found, value, tolerance) {
+    let verdict = match (result.state.report(), found, value, tolerance) {
         (None, ..) => Verdict::Open,
         (_, Some(found), Some(value), Some(tolerance)) => Verdict::of((found - value).abs() <= tolerance),
         _ => Verdict::Missed,
@@ -73,7 +73,7 @@ fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
         measure: expected.measure.clone(),
         expected: format!("{} ± {}", number(value), number(tolerance)),
         found: match (&verdict, found) {
-            (Verdict::Open, _) => result.standing.word().to_owned(),
+            (Verdict::Open, _) => result.state.word().to_owned(),
             (_, Some(found)) => digits(found),
             (_, None) => "not measured".to_owned(),
         },
@@ -84,7 +84,7 @@ fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
 fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
     let order = convergence.order();
     let met = convergence.points.len() > 1
-        && convergence.falls()
+        && convergence.decreases()
         && trend.order.is_none_or(|least| order.map_or(convergence.is_at_floor(), |order| order >= least));
     let verdict = match (convergence.ended, convergence.complete) {
         (false, _) => Verdict::Open,
@@ -143,7 +143,7 @@ mod tests {
         let mut results = complete(&study, |run| if run.index == 2 { f64::NAN } else { 1.25 });
         let verdicts = |results: &[RunResult]| judgments(&study, results).iter().map(|j| j.verdict).collect::<Vec<_>>();
         assert_eq!(verdicts(&results), [Verdict::Met, Verdict::Missed, Verdict::Met, Verdict::Missed]);
-        results[0].standing = super::super::results::Standing::Partial;
+        results[0].state = super::super::results::RunState::Partial;
         assert_eq!(verdicts(&results), [Verdict::Open, Verdict::Missed, Verdict::Met, Verdict::Open]);
     }
 

@@ -46,7 +46,7 @@ fn space_time(observed: &ObservedFilm) -> Diagram {
     let (scales, history) = (observed.surroundings.scales, &observed.history);
     let map = Map {
         label: "height in m",
-        x: observed.frame_places().iter().map(|x| x * scales.length).collect(),
+        x: observed.frame_positions().iter().map(|x| x * scales.length).collect(),
         y: history.frames.iter().map(|frame| frame.time * scales.time).collect(),
         values: history.frames.iter().flat_map(|frame| frame.heights.iter().map(|h| h * scales.height)).collect(),
     };
@@ -65,9 +65,9 @@ fn tanner(points: &[[f64; 2]], exponent: f64, name: &str) -> Option<Trace> {
 
 fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
     let (scales, frames) = (observed.surroundings.scales, &observed.history.frames);
-    let count = frames.first()?.ways.len();
+    let count = frames.first()?.particles.len();
     let trajectory = |i: usize| {
-        frames.iter().filter_map(move |frame| Some([frame.time * scales.time, frame.ways.get(i)? * scales.length]))
+        frames.iter().filter_map(move |frame| Some([frame.time * scales.time, frame.particles.get(i)? * scales.length]))
     };
     let last: Vec<[f64; 2]> = trajectory(count.checked_sub(1)?).collect();
     let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, trajectory(i))).collect();
@@ -75,7 +75,7 @@ fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
         traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
     }
     traces.push(trace("last particle", Stroke::Full, last));
-    let title = "Ways of particles right of the middle";
+    let title = "Paths of particles right of the middle";
     Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces })
 }
 
@@ -93,8 +93,8 @@ fn contact_line(observed: &ObservedFilm) -> Diagram {
         traces.extend(tanner(&line, exponent, name));
     }
     if let Some(droplet) = surroundings.equilibrium {
-        let foot = (surroundings.right + droplet.foot()) * scales.length;
-        traces.push(trace("at rest", Stroke::Dashed, line.iter().map(|point| [point[0], foot])));
+        let at_rest = (surroundings.right + droplet.contact_line()) * scales.length;
+        traces.push(trace("at rest", Stroke::Dashed, line.iter().map(|point| [point[0], at_rest])));
     }
     traces.push(trace("contact line", Stroke::Full, line));
     let title = "The contact line over time";
@@ -106,11 +106,11 @@ fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
     if !observed.surroundings.is_self_similar {
         return None;
     }
-    let (profile, time, foot) = (observed.profile(), observed.film.time(), observed.foot()?);
-    let shape = fit(&profile, time, foot.position)?;
+    let (profile, time, line) = (observed.profile(), observed.film.time(), observed.contact_line()?);
+    let shape = fit(&profile, time, line.position)?;
     let frames: Vec<_> = observed.history.frames.iter().filter(|frame| frame.time > FORGETTING * time).collect();
     let step = frames.len().div_ceil(SHAPES).max(1);
-    let positions = observed.frame_places();
+    let positions = observed.frame_positions();
     let mut traces: Vec<Trace> = frames
         .iter()
         .rev()
@@ -122,7 +122,7 @@ fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
             trace(name, Stroke::Full, points.map(|(x, h)| [x / stretch, h * stretch]))
         })
         .collect();
-    let end = foot.position / time.powf(EXPONENT);
+    let end = line.position / time.powf(EXPONENT);
     let eta: Vec<f64> =
         (0..=SIMILARITY_POINTS).map(|i| 1.2 * end * f64::from(i) / f64::from(SIMILARITY_POINTS)).collect();
     let mut law = shoot(shape.height, shape.curvature, &eta);

@@ -88,7 +88,7 @@ impl Equilibrium {
     }
 
     /// The contact line: the intersection of the tangent at the steepest point with the wall.
-    pub(crate) fn foot(&self) -> f64 {
+    pub(crate) fn contact_line(&self) -> f64 {
         PI / (2.0 * self.xi) + self.level / (self.cosine * self.xi)
     }
 }
@@ -180,7 +180,7 @@ mod tests {
                 1.025_581,
             ],
         ];
-        for [alpha, wetting, radius, xi, cosine, level, overlap, foot] in table {
+        for [alpha, wetting, radius, xi, cosine, level, overlap, contact_line] in table {
             let found = Equilibrium::of_unit_slope(alpha).unwrap();
             for (value, known) in [
                 (found.wetting(), wetting),
@@ -192,7 +192,7 @@ mod tests {
             ] {
                 assert!((value - known).abs() < 1.0e-9, "{alpha}: {value} {known}");
             }
-            assert!((found.foot() - foot).abs() < 1.0e-6, "{alpha}: {}", found.foot());
+            assert!((found.contact_line() - contact_line).abs() < 1.0e-6, "{alpha}: {}", found.contact_line());
         }
     }
 

@@ -22,7 +22,7 @@ pub(crate) enum Film {
 
 /// A failed step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Stuck {
+pub(crate) enum FailedStep {
     /// No step of the particles meets the tolerance, down to this one.
     Inaccurate(f64),
     /// Newton's method on the grid ended at heights below 0.
@@ -33,7 +33,7 @@ pub(crate) enum Stuck {
 
 /// The observed quantities of a film at its particles or nodes.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Seen {
+pub(crate) struct FilmFields {
     /// Positions.
     pub(crate) x: Vec<f64>,
     /// h̄.
@@ -64,23 +64,23 @@ impl Film {
     /// Does one step that ends at `until` or before. Returns its length.
     ///
     /// # Errors
-    /// [`Stuck`]; the state is kept.
-    pub(crate) fn step(&mut self, until: f64) -> Result<f64, Stuck> {
+    /// [`FailedStep`]; the state is kept.
+    pub(crate) fn step(&mut self, until: f64) -> Result<f64, FailedStep> {
         match self {
             Self::Particles { method, state } => {
                 if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel().alpha() {
                     method.keep_lattice_energy();
                 }
-                state.step(method.as_mut(), until).map_err(|error| Stuck::Inaccurate(error.0))
+                state.step(method.as_mut(), until).map_err(|error| FailedStep::Inaccurate(error.0))
             }
             Self::Grid(grid) => {
-                grid.step(until).map_err(|error| error.residual.map_or(Stuck::Negative, Stuck::Residual))
+                grid.step(until).map_err(|error| error.residual.map_or(FailedStep::Negative, FailedStep::Residual))
             }
         }
     }
 
     /// Observed quantities at the particles or nodes.
-    pub(crate) fn seen(&self) -> Seen {
+    pub(crate) fn fields(&self) -> FilmFields {
         match self {
             Self::Particles { method, state } => {
                 // The sums need work space, which is discarded.
@@ -90,13 +90,13 @@ impl Film {
                 let mass = method.weight().to_vec();
                 let smoothed = method.smooth(&state.x);
                 let (height, curvature) = (smoothed.height.clone(), smoothed.curvature.clone());
-                Seen { x: state.x.clone(), height, curvature, velocity, mass }
+                FilmFields { x: state.x.clone(), height, curvature, velocity, mass }
             }
             Self::Grid(film) => {
                 let (grid, height) = (film.grid(), film.state.height.clone());
                 let [_, curvature] = grid.slope_and_curvature(&height);
                 let mass = height.iter().zip(grid.sizes()).map(|(h, size)| h * size).collect();
-                Seen { x: grid.nodes(), curvature, velocity: grid.velocity(&height), mass, height }
+                FilmFields { x: grid.nodes(), curvature, velocity: grid.velocity(&height), mass, height }
             }
         }
     }
@@ -139,7 +139,7 @@ impl Film {
     }
 
     /// The positions of up to `count` particles from the middle one to the last, evenly chosen; empty on a grid.
-    pub(crate) fn ways(&self, count: usize) -> Vec<f64> {
+    pub(crate) fn particle_positions(&self, count: usize) -> Vec<f64> {
         let Self::Particles { state, .. } = self else { return Vec::new() };
         let right = &state.x[state.x.len() / 2..];
         let last = right.len().saturating_sub(1);

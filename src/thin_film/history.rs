@@ -41,7 +41,7 @@ pub(crate) struct Frame {
     /// Heights at fixed positions.
     pub heights: Vec<f64>,
     /// Positions of some particles on the right, ascending up to the last one; empty without particles.
-    pub ways: Vec<f64>,
+    pub particles: Vec<f64>,
 }
 
 /// Records and frames up to now.

@@ -21,9 +21,9 @@ pub(crate) fn all(observed: &ObservedFilm) -> Vec<Measure> {
 
 fn contact_line(observed: &ObservedFilm) -> Vec<Measure> {
     let (scales, film) = (observed.surroundings.scales, &observed.film);
-    let foot = observed.foot();
-    let position = foot.map_or(f64::NAN, |foot| foot.position * scales.length);
-    let angle = foot.map_or(f64::NAN, |foot| (foot.slope * scales.slope()).atan().to_degrees());
+    let line = observed.contact_line();
+    let position = line.map_or(f64::NAN, |line| line.position * scales.length);
+    let angle = line.map_or(f64::NAN, |line| (line.slope * scales.slope()).atan().to_degrees());
     let mut found = vec![
         measure(
             "contact-line-position",
@@ -51,7 +51,7 @@ fn rest(observed: &ObservedFilm) -> Vec<Measure> {
     let surroundings = &observed.surroundings;
     let mut found = Vec::new();
     if let Some(rest) = surroundings.rest {
-        let slope = observed.foot().map_or(f64::NAN, |foot| foot.slope / rest);
+        let slope = observed.contact_line().map_or(f64::NAN, |line| line.slope / rest);
         found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest point over the slope at rest"));
     }
     if let Some(sides) = surroundings.cap_sides {
@@ -99,10 +99,10 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
     }
     let time = observed.film.time();
     if surroundings.is_self_similar
-        && let Some(foot) = observed.foot()
-        && let Some(shape) = fit(&observed.profile(), time, foot.position)
+        && let Some(line) = observed.contact_line()
+        && let Some(shape) = fit(&observed.profile(), time, line.position)
     {
-        let method = format!("f''' = eta/(7 f^2) by shooting, fitted over {COVERED} of the way to the contact line");
+        let method = format!("f''' = eta/(7 f^2) by shooting, fitted up to {COVERED} of the contact-line position");
         found.push(measure("similarity-curvature", shape.curvature, "", format!("f''(0): {method}")));
         found.push(measure("similarity-error", shape.error, "", format!("largest misfit over f(0): {method}")));
     }
@@ -110,12 +110,12 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
 }
 
 fn lattice(observed: &ObservedFilm) -> Option<Measure> {
-    let share = observed.film.lattice_slope()? / observed.foot().map_or(f64::NAN, |foot| foot.slope);
+    let share = observed.film.lattice_slope()? / observed.contact_line().map_or(f64::NAN, |line| line.slope);
     let method = if share > VISIBLE {
-        "slope that the lattice of particles imitates over that of the film; the contact line is held back: take a smaller \
+        "slope that the particle lattice acts like over that of the film; the contact line is held back: take a smaller \
          spacing, or lattice-energy = \"taken-off\""
     } else {
-        "slope that the lattice of particles imitates over that of the film"
+        "slope that the particle lattice acts like over that of the film"
     };
     Some(measure("lattice-slope-ratio", share, "", method))
 }

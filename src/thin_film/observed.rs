@@ -3,18 +3,18 @@
 use super::equilibrium::Equilibrium;
 use super::film::Film;
 use super::history::{Frame, History};
-use super::profile::{Foot, Profile};
+use super::profile::{ContactLine, Profile};
 use super::scales::Scales;
 
-/// Points per filter length in the output profile of particles; the foot is then accurate to 1e-7 of it.
+/// Points per filter length in the output profile of particles; the contact line is then accurate to 1e-7 of it.
 const POINTS_PER_FILTER: f64 = 20.0;
 /// Maximum number of points of that profile.
 const MOST_POINTS: f64 = 2.0e4;
 
 /// Intervals between the positions of a frame.
-const FRAME_PLACES: u32 = 240;
+const FRAME_POINTS: u32 = 240;
 /// Number of particles whose trajectories are kept.
-const WAYS: usize = 12;
+const FOLLOWED: usize = 12;
 
 /// Constant properties of the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,21 +67,21 @@ impl ObservedFilm {
     }
 
     /// The scaled contact line on the right; `None` if its tangent meets the wall outside the domain, as for a film that covers all of it.
-    pub(crate) fn foot(&self) -> Option<Foot> {
+    pub(crate) fn contact_line(&self) -> Option<ContactLine> {
         let end = self.surroundings.wall[1] / self.surroundings.scales.length;
-        self.profile().foot(self.surroundings.right).filter(|foot| foot.position <= end)
+        self.profile().contact_line(self.surroundings.right).filter(|line| line.position <= end)
     }
 
     /// The scaled positions of the heights in frames, equidistant along the wall.
-    pub(crate) fn frame_places(&self) -> Vec<f64> {
+    pub(crate) fn frame_positions(&self) -> Vec<f64> {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
-        (0..=FRAME_PLACES).map(|i| left + (right - left) * f64::from(i) / f64::from(FRAME_PLACES)).collect()
+        (0..=FRAME_POINTS).map(|i| left + (right - left) * f64::from(i) / f64::from(FRAME_POINTS)).collect()
     }
 
     pub(crate) fn frame(&self) -> Frame {
         let time = self.film.time();
-        let heights = self.film.heights(&self.frame_places());
-        Frame { time, heights, ways: self.film.ways(WAYS) }
+        let heights = self.film.heights(&self.frame_positions());
+        Frame { time, heights, particles: self.film.particle_positions(FOLLOWED) }
     }
 
     /// Column of the film's size, and its unit of scaled mass: an area in the plane, a volume if axisymmetric.
@@ -91,8 +91,8 @@ impl ObservedFilm {
     }
 
     pub(crate) fn fastest(&self) -> (f64, f64) {
-        let seen = self.film.seen();
-        let pairs = seen.velocity.iter().zip(&seen.x);
+        let fields = self.film.fields();
+        let pairs = fields.velocity.iter().zip(&fields.x);
         pairs.map(|(v, x)| (v.abs(), *x)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a })
     }
 }

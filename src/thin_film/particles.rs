@@ -113,7 +113,7 @@ impl ParticleMethod {
 
     /// h̄, h̄ₓ, h̄ₓₓ at ascending positions.
     pub fn profile(&self, x: &[f64], positions: &[f64]) -> Smoothed {
-        self.sums.at_places(x, &self.weight, positions)
+        self.sums.at_positions(x, &self.weight, positions)
     }
 
     /// ⟨h, h̄⟩ = Σ wᵢ h̄ᵢ from the last sums.

@@ -18,7 +18,7 @@ pub struct Profile {
 
 /// The advancing edge of a droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot {
+pub struct ContactLine {
     /// Intersection of the tangent at the steepest point with the wall: the contact line.
     pub position: f64,
     /// The steepest point y*.
@@ -32,7 +32,7 @@ impl Profile {
     ///
     /// The paper's text names the maximum of h̄, where the tangent is horizontal; the steepest point is meant. The position is stationary in y*, so that a
     /// parabola through three slopes gives it with an error of fourth order in their spacing.
-    pub fn foot(&self, from: f64) -> Option<Foot> {
+    pub fn contact_line(&self, from: f64) -> Option<ContactLine> {
         let right = (1..self.x.len().saturating_sub(1)).filter(|&i| self.x[i] > from);
         let i = right.min_by(|&i, &j| self.slope[i].total_cmp(&self.slope[j]))?;
         let step = self.x[i + 1] - self.x[i];
@@ -43,7 +43,7 @@ impl Profile {
         let d = offset * step;
         let height = self.height[i] + here * d + 0.25 * (after - before) / step * d * d;
         let steepest = self.x[i] + d;
-        (slope < 0.0).then(|| Foot { position: steepest - height / slope, steepest, slope: -slope })
+        (slope < 0.0).then(|| ContactLine { position: steepest - height / slope, steepest, slope: -slope })
     }
 
     /// Number of droplets: maxima above a twentieth of the highest.
@@ -89,9 +89,9 @@ mod tests {
             curvature: x.iter().map(|x| -x.cos()).collect(),
             x,
         };
-        let foot = profile.foot(0.0).unwrap();
-        assert!((foot.position - std::f64::consts::FRAC_PI_2 - 1.0).abs() < 1.0e-7, "{foot:?}");
-        assert!((foot.slope - 1.0).abs() < 1.0e-8);
+        let line = profile.contact_line(0.0).unwrap();
+        assert!((line.position - std::f64::consts::FRAC_PI_2 - 1.0).abs() < 1.0e-7, "{line:?}");
+        assert!((line.slope - 1.0).abs() < 1.0e-8);
     }
 
     #[test]

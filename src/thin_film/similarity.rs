@@ -78,10 +78,10 @@ pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     f
 }
 
-/// The least-squares fit of the shape to the middle part of a droplet at the time `t` with its contact line at `foot`.
-pub(crate) fn fit(profile: &Profile, t: f64, foot: f64) -> Option<Fit> {
+/// The least-squares fit of the shape to the middle part of a droplet at the time `t` with its contact line at `contact_line`.
+pub(crate) fn fit(profile: &Profile, t: f64, contact_line: f64) -> Option<Fit> {
     let stretch = t.powf(EXPONENT);
-    let middle = (0..profile.x.len()).filter(|&i| (0.0..COVERED * foot).contains(&profile.x[i]));
+    let middle = (0..profile.x.len()).filter(|&i| (0.0..COVERED * contact_line).contains(&profile.x[i]));
     let (eta, f): (Vec<f64>, Vec<f64>) = middle.map(|i| (profile.x[i] / stretch, profile.height[i] * stretch)).unzip();
     let height = height_at_zero(&eta, &f)?;
     let misfit = |curvature: f64| {

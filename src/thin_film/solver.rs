@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::film::{Film, Stuck};
+use super::film::{FailedStep, Film};
 use super::history::{History, Record};
 use super::observed::{ObservedFilm, Surroundings};
 use super::{backward_euler, diagrams, measures, warnings};
@@ -55,31 +55,31 @@ impl ThinFilmSolver {
     /// The cause of negative heights, and the remedy.
     fn why_negative(&self) -> &'static str {
         if self.observed.surroundings.rest.is_some() && self.observed.film.time() > LONG {
-            "as films long at rest do (end the run earlier, or take a smaller spacing and a domain that the film does not fill)"
+            "as for films long at rest (end the run earlier, or take a smaller spacing and a domain that the film does not fill)"
         } else {
-            "although it still moves: its steps or its spacing are too long for it (take a smaller \
+            "although it still moves: its steps are too long or its spacing is too coarse (take a smaller \
              thin-film.method.finite-differences.step-share or thin-film.spacing, and a domain that the film does not fill)"
         }
     }
 
-    fn stuck(&self, stuck: Stuck) -> SolverError {
+    fn stuck(&self, stuck: FailedStep) -> SolverError {
         let (time, step) = (self.observed.time, self.steps);
         match stuck {
-            Stuck::Inaccurate(dt) => {
+            FailedStep::Inaccurate(dt) => {
                 let dt = dt * self.observed.surroundings.scales.time;
-                let place = Vec2::new(self.observed.fastest().1 * self.observed.surroundings.scales.length, 0.0);
-                SolverError::TimeStep { dt, smallest: dt, limit: "accuracy", time, step, place }
+                let position = Vec2::new(self.observed.fastest().1 * self.observed.surroundings.scales.length, 0.0);
+                SolverError::TimeStep { dt, smallest: dt, limit: "accuracy", time, step, position }
             }
-            Stuck::Negative => SolverError::BlowUp {
+            FailedStep::Negative => SolverError::BlowUp {
                 what: format!(
                     "the thin film falls below height 0 in all but the shortest steps, {}",
                     self.why_negative()
                 ),
                 time,
                 step,
-                place: Vec2::new(self.observed.fastest().1 * self.observed.surroundings.scales.length, 0.0),
+                position: Vec2::new(self.observed.fastest().1 * self.observed.surroundings.scales.length, 0.0),
             },
-            Stuck::Residual(residual) => SolverError::NotConverged {
+            FailedStep::Residual(residual) => SolverError::NotConverged {
                 system: "the thin film on its grid",
                 residual,
                 tolerance: backward_euler::RESIDUAL,
@@ -113,9 +113,9 @@ impl Solver for ThinFilmSolver {
         let dt = stepped.map_err(|stuck| self.stuck(stuck))? * scale;
         let time = self.observed.film.time();
         if self.observed.history.is_due(time)
-            && let Some(foot) = self.observed.foot()
+            && let Some(line) = self.observed.contact_line()
         {
-            let (position, slope, last) = (foot.position, foot.slope, self.observed.film.last_particle());
+            let (position, slope, last) = (line.position, line.slope, self.observed.film.last_particle());
             self.observed.history.records.push(Record { time, position, slope, last });
         }
         if self.observed.history.is_frame_due(time) {
@@ -132,10 +132,10 @@ impl Solver for ThinFilmSolver {
     fn snapshot(&self) -> Snapshot<'_> {
         let s = &self.observed.surroundings.scales;
         let point = |(x, h): (&f64, &f64)| Vec2::new(x * s.length, h * s.height);
-        let seen = self.observed.film.seen();
-        let points: Vec<Vec2> = seen.x.iter().zip(&seen.height).map(point).collect();
+        let fields = self.observed.film.fields();
+        let points: Vec<Vec2> = fields.x.iter().zip(&fields.height).map(point).collect();
         let count = points.len();
-        let velocity: Vec<Vec2> = seen.velocity.iter().map(|v| Vec2::new(v * s.velocity(), 0.0)).collect();
+        let velocity: Vec<Vec2> = fields.velocity.iter().map(|v| Vec2::new(v * s.velocity(), 0.0)).collect();
         let pressure = -s.tension * s.curvature();
         let (_, mass) = self.observed.mass_unit();
         let volume = if self.observed.surroundings.about_axis { "m^3" } else { "m^2" };
@@ -144,9 +144,9 @@ impl Solver for ThinFilmSolver {
             Field { name: "id", unit: "", values: integers((0..count as i64).collect()) },
             Field { name: "phase", unit: "", values: integers(vec![0; count]) },
             Field { name: "velocity", unit: "m/s", values: Values::Vector(velocity.into()) },
-            scalar("pressure", "Pa", seen.curvature.iter().map(|c| c * pressure)),
-            scalar("volume", volume, seen.mass.iter().map(|m| m * mass)),
-            scalar("film-height", "m", seen.height.iter().map(|h| h * s.height)),
+            scalar("pressure", "Pa", fields.curvature.iter().map(|c| c * pressure)),
+            scalar("volume", volume, fields.mass.iter().map(|m| m * mass)),
+            scalar("film-height", "m", fields.height.iter().map(|h| h * s.height)),
         ];
         let profile = self.observed.profile();
         let line: Vec<Vec2> = profile.x.iter().zip(&profile.height).map(point).collect();
@@ -168,7 +168,7 @@ impl Solver for ThinFilmSolver {
 
     fn sample(&self) -> Vec<Sample> {
         let s = &self.observed.surroundings.scales;
-        let foot = self.observed.foot();
+        let line = self.observed.contact_line();
         let (mass_name, mass) = self.observed.mass_unit();
         let (energy_name, energy) = if self.observed.surroundings.about_axis {
             ("energy_J", s.energy() * s.length)
@@ -180,9 +180,9 @@ impl Solver for ThinFilmSolver {
             ("time_s", self.observed.time),
             ("step", self.steps as f64),
             ("dt_s", self.dt),
-            ("contact_line_position_m", or_nothing(foot.map(|foot| foot.position * s.length))),
+            ("contact_line_position_m", or_nothing(line.map(|line| line.position * s.length))),
             ("last_particle_position_m", or_nothing(self.observed.film.last_particle().map(|x| x * s.length))),
-            ("contact_angle_deg", or_nothing(foot.map(|foot| (foot.slope * s.slope()).atan().to_degrees()))),
+            ("contact_angle_deg", or_nothing(line.map(|line| (line.slope * s.slope()).atan().to_degrees()))),
             ("center_height_m", self.observed.film.center_height() * s.height),
             (mass_name, self.observed.film.mass() * mass),
             (energy_name, self.observed.film.energy() * energy),

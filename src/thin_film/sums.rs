@@ -109,7 +109,7 @@ impl FastSums {
     }
 
     /// h̄, h̄ₓ and h̄ₓₓ at other ascending positions; the third derivative, which jumps at particles, is left at zero.
-    pub(crate) fn at_places(&self, x: &[f64], weight: &[f64], positions: &[f64]) -> Smoothed {
+    pub(crate) fn at_positions(&self, x: &[f64], weight: &[f64], positions: &[f64]) -> Smoothed {
         let rate = -1.0 / self.kernel.alpha();
         let factors = Factors::new(&self.kernel);
         let moved = |sums: OneSided, gap: f64| sums.moved(gap, (rate * gap).exp());
@@ -210,7 +210,7 @@ mod tests {
         let mut positions: Vec<f64> = (0..400).map(|i| -1.6 + 0.0081 * f64::from(i)).collect();
         positions.extend_from_slice(&x);
         positions.sort_by(f64::total_cmp);
-        let found = FastSums::new(kernel).at_places(&x, &weight, &positions);
+        let found = FastSums::new(kernel).at_positions(&x, &weight, &positions);
         let sum = |order: Order| -> Vec<f64> {
             let at = |&p: &f64| x.iter().zip(&weight).map(|(&xj, &wj)| wj * kernel.at(order, p - xj)).sum();
             positions.iter().map(at).collect()

@@ -17,7 +17,7 @@ pub(crate) fn all(observed: &ObservedFilm) -> Vec<String> {
 /// A film over the whole domain has no contact line.
 fn covered(observed: &ObservedFilm) -> Option<String> {
     let [left, right] = observed.surroundings.wall;
-    observed.foot().is_none().then(|| {
+    observed.contact_line().is_none().then(|| {
         format!(
             "the film has no contact line within the domain from {left:e} to {right:e} m: it covers the wall; a wider domain or an earlier end \
              would do"
@@ -28,11 +28,11 @@ fn covered(observed: &ObservedFilm) -> Option<String> {
 /// A film without disjoining pressure lets droplets coalesce, but does not break up.
 fn apart(observed: &ObservedFilm) -> Option<String> {
     // A film that covers the wall is flat except for rounding.
-    observed.foot()?;
+    observed.contact_line()?;
     let (most, found) = (observed.surroundings.most_droplets?, observed.profile().peaks());
     (found > most).then(|| {
         format!(
-            "the film has {found} maxima, expected at most {most}: it comes apart by its resolution; a smaller spacing, finite differences or a \
+            "the film has {found} maxima, expected at most {most}: it breaks up for lack of resolution; a smaller spacing, finite differences or a \
              wider domain would do"
         )
     })
@@ -43,15 +43,15 @@ fn lattice(observed: &ObservedFilm) -> Option<String> {
     let slope = observed.film.lattice_slope()?;
     if observed.surroundings.takes_lattice_off {
         return Some(
-            "the lattice energy was no longer taken off once a gap between particles exceeded half of the smoothing length; a smaller \
+            "the lattice energy was no longer subtracted once a gap between particles exceeded half of the smoothing length; a smaller \
              spacing would do"
                 .to_owned(),
         );
     }
-    let share = slope / observed.foot()?.slope;
+    let share = slope / observed.contact_line()?.slope;
     (observed.surroundings.rest.is_none() && share > VISIBLE).then(|| {
         format!(
-            "the lattice of particles imitates a slope of {share:.2} of that of the film, expected at most {VISIBLE}: the contact line is held \
+            "the lattice of particles acts like a slope of {share:.2} of that of the film, expected at most {VISIBLE}: the contact line is held \
              back by percents; a smaller spacing, lattice-energy = \"taken-off\" or finite differences would do"
         )
     })
@@ -63,7 +63,7 @@ fn off(observed: &ObservedFilm) -> Option<String> {
     let distance = observed.profile().distance_to(|x| droplet.height(x - observed.surroundings.right)) / droplet.area;
     (distance > OFF).then(|| {
         format!(
-            "the film rests {:.1} % of its area away from the droplet at rest, expected at most {:.0} %: contact line and angle are off by as much",
+            "the film at rest differs from the equilibrium droplet by {:.1} % of its area, expected at most {:.0} %: contact line and angle are off by as much",
             100.0 * distance,
             100.0 * OFF
         )

@@ -196,7 +196,7 @@ pub(crate) fn pore(subdomain: &WholePore, fluids: &Fluids, named: &Named) -> Opt
     let (width, tension, frame) = (subdomain.width, fluids.tension, &subdomain.frame);
     let spacing = subdomain.narrowest / f64::from(named.across);
     let steps = Steps::of(subdomain, spacing)?;
-    let behind = subdomain.behind(steps.first)?;
+    let behind = subdomain.invading_shape(steps.first)?;
     let [wetting, other] = fluids.of(width);
     let (density, viscosity) = (wetting.density.max(other.density), wetting.viscosity.max(other.viscosity));
     let size = crate::math::Vec2::from(subdomain.geometry.max) - crate::math::Vec2::from(subdomain.geometry.min);

@@ -69,7 +69,7 @@ pub struct Chosen {
 pub enum ChoiceError {
     /// No displacement that breaks through.
     #[error(
-        "`critical` are the throats near the pressure at breakthrough, and there is none: the network needs an inlet and an outlet that is reached; take unsure, random:N or numbers"
+        "`critical` selects throats near the pressure at breakthrough, and there is none: the network needs an inlet and an outlet that is reached; take unsure, random:N or numbers"
     )]
     NoBreakthrough,
     /// A number that no throat has.

@@ -112,7 +112,7 @@ impl PlannedEvent {
             subject.filled_area(event),
             &subject.conditions.angle,
         )
-        .and_then(|subdomain| match subject.has_its_films(subdomain.angle) {
+        .and_then(|subdomain| match subject.has_network_films(subdomain.angle) {
             true => Ok(subdomain),
             false => Err(Impossible::Films),
         });

@@ -49,7 +49,7 @@ impl Planned {
         };
         let depth = subject.chip.map(|chip| chip.depth.distance());
         let subdomain =
-            Subdomain::new(&passage, &ahead).and_then(|subdomain| match subject.has_its_films(subdomain.angle) {
+            Subdomain::new(&passage, &ahead).and_then(|subdomain| match subject.has_network_films(subdomain.angle) {
                 true => Ok(subdomain),
                 false => Err(Impossible::Films),
             });
@@ -108,7 +108,7 @@ pub enum PlanError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A case changed by hand belongs to another network.
-    #[error("{} was changed by hand, and is of another case or other options now; choose another folder with --out DIR, or remove the file", .0.display())]
+    #[error("{} was changed by hand, and now belongs to another case or other options; choose another folder with --out DIR, or remove the file", .0.display())]
     Changed(PathBuf),
 }
 

@@ -249,7 +249,7 @@ pub(crate) fn notes(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<Stri
         let curvature = row.planned.touches?;
         let number = row.planned.chosen.number;
         Some(format!(
-            "throat {number}: the {} phase touches another wall at {:.1} Pa, before the burst that is verified here",
+            "throat {number}: the {} phase touches another wall at {:.1} Pa, before the burst verified here",
             fluids.invading.name(),
             fluids.pressure(curvature)
         ))

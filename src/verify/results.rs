@@ -3,7 +3,7 @@
 use super::fluids::Fluids;
 use super::plan::{Kind, Planned, case_name};
 use crate::network::cycles::FluidPhase;
-use crate::study::results::{RunResult, Standing};
+use crate::study::results::{RunResult, RunState};
 
 /// Relative difference between the entry pressures of both spacings above which neither is trusted.
 const COARSE_PRESSURE: f64 = 0.05;
@@ -99,8 +99,8 @@ pub(super) struct Run<'a> {
 
 impl Run<'_> {
     pub(super) fn failed(&self) -> Option<String> {
-        match &self.result.standing {
-            Standing::Failed(report) => {
+        match &self.result.state {
+            RunState::Failed(report) => {
                 let why = report.error.clone().unwrap_or_default();
                 Some(why.lines().next().unwrap_or("the solver failed").to_owned())
             }
@@ -109,7 +109,7 @@ impl Run<'_> {
     }
 
     pub(super) fn is_complete(&self) -> bool {
-        self.result.standing.report().is_some()
+        self.result.state.report().is_some()
     }
 
     pub(super) fn number(&self, name: &str) -> Option<f64> {

@@ -52,7 +52,7 @@ pub enum Impossible {
     #[error("its walls are not three discs")]
     NoDisc,
     /// Menisci that merged earlier.
-    #[error("its menisci met at a lower pressure and waited as one")]
+    #[error("its menisci merged at a lower pressure")]
     Waited,
     /// No branch before the event.
     #[error("its menisci meet or touch as soon as they form in their throats")]
@@ -67,9 +67,7 @@ pub enum Impossible {
     #[error("it is a burst, which is verified in its throat")]
     Burst,
     /// Corner films of another angle.
-    #[error(
-        "its walls have another contact angle than those of which the network takes the films in the corners of floor and lid"
-    )]
+    #[error("its walls have a contact angle other than that of the corner films of the network")]
     Films,
     /// Another throat.
     #[error("the subdomain has a throat of {0} m instead of this one")]
@@ -108,7 +106,7 @@ impl Subdomain {
         let arc = frame.curve(&meniscus.curve());
         let plan = Plan::new(passage, &frame, &arc, width)?;
         let geometry = plan.geometry();
-        let behind = plan.behind(&arc);
+        let behind = plan.invading_shape(&arc);
         let subdomain =
             Self { frame, width, angle, meniscus, left_out: plan.count(obstacles, &frame), geometry, behind };
         subdomain.check(&arc)?;
@@ -197,7 +195,7 @@ impl Plan {
                 let lid = level + if above > 0.0 { (0.5 * above).min(ROOM * width) } else { ROOM * width };
                 follow(&wall.sides[side], start, lid, needed[side] + REACH * width)
             });
-            let is_kept = |side: usize, contact: Vec2| sides[side].holds(contact, ROUNDING * width);
+            let is_kept = |side: usize, contact: Vec2| sides[side].contains(contact, ROUNDING * width);
             if !is_flat && !is_kept(0, Vec2::new(-contact.x, contact.y)) && !is_kept(1, contact) {
                 return Err(Impossible::Contact);
             }
@@ -297,7 +295,7 @@ impl Plan {
     }
 
     /// The region behind the meniscus: a polygon whose other edges lie on the walls and outside the sides of the box.
-    fn behind(&self, arc: &Curve) -> CurvedPolygon {
+    fn invading_shape(&self, arc: &Curve) -> CurvedPolygon {
         let [upper, lower] = self.bodies.each_ref().map(|body| self.path(body));
         let [left, right] = [arc.point(0.0), arc.point(1.0)];
         let mut ring = vec![arc.reversed()];

@@ -67,7 +67,7 @@ impl Subject {
         let plates = on_plates(&interface.wetting_model, &interface.patches, |model| {
             model.hysteresis_range()[receding_or_advancing]
         });
-        let chip = solver.config().depth_met_by(invading).map(|depth| Chip { plates, depth });
+        let chip = solver.config().depth_for(invading).map(|depth| Chip { plates, depth });
         let history = solver.cycles().map(first_half_cycle).unwrap_or_default();
         let config = solver.config();
         let fresh = Displacement::new(&config.network, &config.pores, conditions.clone());
@@ -110,7 +110,7 @@ impl Subject {
     }
 
     /// Whether walls of a contact angle through the defending phase (rad) have the corner films of the network, which are the same on all walls.
-    pub(crate) fn has_its_films(&self, angle: f64) -> bool {
+    pub(crate) fn has_network_films(&self, angle: f64) -> bool {
         let angle = if self.invading == FluidPhase::NonWetting { angle } else { PI - angle };
         self.chip.is_none_or(|Chip { plates, depth }| Depth::new(depth.distance(), angle, plates).has_films_of(&depth))
     }

@@ -89,8 +89,8 @@ impl UpperWall {
     pub(crate) fn height_to(&self, contact: Vec2, tolerance: f64) -> Option<f64> {
         [Vec2::new(-contact.x, contact.y), contact].into_iter().zip(&self.sides).find_map(|(contact, side)| {
             let on = side.iter().position(|curve| (curve.project(contact).point - contact).norm() <= tolerance)?;
-            let foot = side[on].project(contact).u;
-            let last = side[on].part(0.0, foot);
+            let end = side[on].project(contact).u;
+            let last = side[on].part(0.0, end);
             let before = side[..on].iter().chain([&last]);
             Some(before.flat_map(|curve| sampled(curve, 1.0)).fold(contact.y, |high, point| high.max(point.y)))
         })
@@ -124,7 +124,7 @@ impl Followed {
     }
 
     /// Whether a point lies on it.
-    pub(crate) fn holds(&self, x: Vec2, tolerance: f64) -> bool {
+    pub(crate) fn contains(&self, x: Vec2, tolerance: f64) -> bool {
         self.curves.iter().any(|curve| (curve.project(x).point - x).norm() <= tolerance)
     }
 }

@@ -13,7 +13,7 @@ use crate::geometry::curve::Curve;
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::interface::menisci::{Meniscus, Passage, WallPart};
 use crate::math::{Bounds, Vec2, perpendicular};
-use crate::network::displacement::{EventKind, Place, Scene};
+use crate::network::displacement::{EventKind, Scene, Site};
 
 /// Clearance between the third body and the sides of the box, in widths: no narrower than the throat.
 const ROOM: f64 = 1.0;
@@ -89,7 +89,7 @@ impl WholePore {
         let (found, throats) = bodies(kind, scene, curvature)?;
         let frame = frame(&found);
         let bodies = found.within(&frame);
-        let passages: Vec<Passage> = scene.places.iter().map(|place| place.passage.clone()).collect();
+        let passages: Vec<Passage> = scene.sites.iter().map(|site| site.passage.clone()).collect();
         let width = throats.into_iter().fold(f64::INFINITY, f64::min);
         let lowest = passages.iter().filter_map(Passage::lowest).map(|it| it.curvature).fold(f64::MIN, f64::max);
         if !(width > 0.0) || lowest >= curvature {
@@ -105,14 +105,14 @@ impl WholePore {
         let swept = |passage: &Passage| passage.at(curvature).map_or(0.0, |meniscus| passage.swept_area(&meniscus));
         let left = filled_area - passages.iter().map(swept).sum::<f64>();
         let area = if left > 0.0 { left } else { filled_area };
-        let left_out = bodies.count(&scene.places, &frame, &geometry, width);
+        let left_out = bodies.count(&scene.sites, &frame, &geometry, width);
         let narrowest = bodies.narrowest();
         Ok(Self { kind, frame, width, narrowest, angle, curvature, lowest, area, geometry, left_out, bodies, passages })
     }
 
     /// Shape of the invading phase at a curvature (1/m) of its menisci before the event; it extends past the box. `None` if there are no
     /// menisci of this curvature.
-    pub fn behind(&self, curvature: f64) -> Option<CurvedPolygon> {
+    pub fn invading_shape(&self, curvature: f64) -> Option<CurvedPolygon> {
         let arcs = arcs(&self.passages, &self.frame, curvature)?;
         let Bodies { upper, lower, .. } = &self.bodies;
         let room = ROOM * self.width;
@@ -141,13 +141,13 @@ fn arcs(passages: &[Passage], frame: &Frame, curvature: f64) -> Option<Vec<Curve
 
 /// The bodies of an event in the frame of the network, and the widths in m of the throats with menisci.
 fn bodies(kind: EventKind, scene: &Scene, curvature: f64) -> Result<(Bodies, Vec<f64>), Impossible> {
-    match (kind, &scene.places[..]) {
-        (EventKind::Touch, [place]) => {
-            let upper = disc_of(&place.passage.left().parts)?;
-            let lower = disc_of(&place.passage.right().parts)?;
-            let meniscus = place.passage.at(curvature).ok_or(Impossible::NoMeniscus)?;
+    match (kind, &scene.sites[..]) {
+        (EventKind::Touch, [site]) => {
+            let upper = disc_of(&site.passage.left().parts)?;
+            let lower = disc_of(&site.passage.right().parts)?;
+            let meniscus = site.passage.at(curvature).ok_or(Impossible::NoMeniscus)?;
             let throats = vec![gap(&upper, &lower)];
-            let third = touched(&meniscus, &place.ahead, throats[0])?;
+            let third = touched(&meniscus, &site.ahead, throats[0])?;
             Ok((Bodies { upper, lower, third }, throats))
         }
         (EventKind::Overlap, [left, right]) => {
@@ -293,7 +293,7 @@ impl Bodies {
     }
 
     /// Number of other walls that reach into the box.
-    fn count(&self, places: &[Place], frame: &Frame, geometry: &GeometrySpec, width: f64) -> usize {
+    fn count(&self, sites: &[Site], frame: &Frame, geometry: &GeometrySpec, width: f64) -> usize {
         let is_in = |x: Vec2| (0..2).all(|i| x[i] > geometry.min[i] && x[i] < geometry.max[i]);
         let near = 1e3 * ROUNDING * width;
         let is_own = |x: Vec2| self.all().iter().any(|disc| (x - Vec2::from(disc.center)).norm() <= disc.radius + near);
@@ -301,7 +301,7 @@ impl Bodies {
             let curve = frame.curve(curve);
             (0..POINTS).map(|k| curve.point(k as f64 / (POINTS - 1) as f64)).any(|x| is_in(x) && !is_own(x))
         };
-        places.iter().flat_map(|place| &place.ahead).filter(reaches).count()
+        sites.iter().flat_map(|site| &site.ahead).filter(reaches).count()
     }
 }
 

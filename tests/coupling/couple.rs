@@ -35,7 +35,7 @@ fn steps_without_a_first_pressure_are_refused() {
     let steps = "sph.sides.open.left.pressure-steps={ rise = 1.0, every-time = 1.0 }";
     let output = meniscus(folder.path(), &["check", &case, "--set", steps]);
     assert_code(&output, 3);
-    assert!(stderr(&output).contains("needs the first one"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("needs an initial value"), "{}", stderr(&output));
     let case = repository("cases/burst-pressure.toml");
     let output = meniscus(folder.path(), &["check", &case, "--set", "sph.sides.open.left.pressure-steps.rise=-1.0"]);
     assert_code(&output, 3);
@@ -86,7 +86,7 @@ fn what_cannot_be_coupled_is_refused() {
     for (event, network, direct, code, message) in [
         ("pore:99", &network, &direct, 3, "9 pores, numbered from 0"),
         ("burst", &network, &direct, 2, "expected breakthrough, overlap or pore:N"),
-        ("pore:-1", &network, &direct, 2, "-1 is no number of a pore"),
+        ("pore:-1", &network, &direct, 2, "-1 is not the number of a pore"),
         ("breakthrough", &direct, &direct, 3, "no slow displacement"),
         ("breakthrough", &repository("cases/network/dynamic.toml"), &direct, 3, "no slow displacement"),
     ] {
@@ -107,15 +107,10 @@ fn a_direct_case_that_does_not_fit_is_refused_before_anything_runs() {
     let other = format!("file = {:?}", repository("geometries/four-discs.toml"));
     let shape = "wetting = [{ rectangle = { center = [0.0, 5.0e-4], size = [2.0e-4, 3.0e-3] } }]";
     for (from, to, place, message) in [
-        (
-            pack.as_str(),
-            other.as_str(),
-            line("network = "),
-            "what the network hands over is the state of another geometry",
-        ),
-        ("left = \"inlet\"", "left = \"outlet\"", line("left ="), "here that is no inlet with a pressure"),
+        (pack.as_str(), other.as_str(), line("network = "), "the state of the network belongs to another geometry"),
+        ("left = \"inlet\"", "left = \"outlet\"", line("left ="), "here that is not an inlet with a pressure"),
         ("spacing = 1.6e-5", "spacing = 4.0e-5", line("spacing ="), "the narrowest throat is"),
-        (state.as_str(), "", line("[sph.initial"), "no shape says where they are"),
+        (state.as_str(), "", line("[sph.initial"), "no shape defines their regions"),
         (state.as_str(), shape, line("[sph.initial"), "does not begin with the state of a network"),
     ] {
         assert!(text.contains(from), "{from}");

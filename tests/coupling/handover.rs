@@ -266,7 +266,7 @@ fn a_direct_simulation_that_begins_at_rest_stays_there_and_hands_the_same_phases
 fn refused(changes: &[&str]) -> String {
     let mistakes = direct(changes).unwrap_err().mistakes;
     assert_eq!(mistakes.len(), 1, "{mistakes:?}");
-    assert!(mistakes[0].place.is_some());
+    assert!(mistakes[0].location.is_some());
     mistakes[0].message.clone()
 }
 
@@ -303,9 +303,9 @@ fn what_does_not_fit_is_refused_with_file_and_reason() {
     let mut back = committed();
     (back.menisci, back.invading_outline) = (Vec::new(), Vec::new());
     let back = refused(&[&file("back.json", &serde_json::to_string(&back).unwrap())]);
-    assert!(back.contains("holds no menisci"), "{back}");
+    assert!(back.contains("has no menisci"), "{back}");
     let both = refused(&["sph.initial.background=\"wetting\""]);
-    assert!(both.contains("`network` says which phase is where"), "{both}");
+    assert!(both.contains("`network` defines the regions of the phases"), "{both}");
     let curve = text.replacen("\"boundary\":[[", "\"boundary\":[[1.0],[", 1);
     let curve = refused(&[&file("curve.json", &curve)]);
     assert!(curve.contains("the four numbers of a segment or the five of an arc"), "{curve}");

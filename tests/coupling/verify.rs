@@ -263,7 +263,7 @@ fn the_cut_out_of_a_whole_pore_has_the_event_of_the_network() {
             cut[usize::from(one.kind == EventKind::Touch)] += 1;
             with_event += usize::from(has_event(subdomain));
             // The invading phase ends at the menisci: between two bodies, or three.
-            let behind = subdomain.behind(subdomain.curvature).unwrap();
+            let behind = subdomain.invading_shape(subdomain.curvature).unwrap();
             let arcs = behind.outer.iter().filter(|[.., bulge]| *bulge != 0.0).count();
             assert!(arcs <= if one.kind == EventKind::Touch { 1 } else { 2 }, "{behind:?}");
         }

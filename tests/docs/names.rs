@@ -43,13 +43,11 @@ fn lines_of<'s>(source: &'s str, item: &str) -> Vec<&'s str> {
         return lines[comment..=first].to_vec();
     }
     let indentation = line.len() - line.trim_start().len();
-    let closes = |line: &&str| {
-        line.len() > indentation
-            && line[..indentation].trim().is_empty()
-            && "}]".contains(&line[indentation..=indentation])
+    let closes = |line: &str| {
+        let (before, rest) = line.split_at_checked(indentation).unwrap_or((line, ""));
+        before.trim().is_empty() && rest.starts_with(['}', ']'])
     };
-    let length =
-        lines[first + 1..].iter().position(|line| closes(&line)).unwrap_or_else(|| panic!("{item} has no end"));
+    let length = lines[first + 1..].iter().position(|line| closes(line)).unwrap_or_else(|| panic!("{item} has no end"));
     lines[first + 1..=first + length].to_vec()
 }
 

@@ -58,7 +58,7 @@ fn bad_shape_files_are_refused_with_all_their_lines() {
     let Err(ShapeFileError::Parts { refusals, .. }) = load(&repository("tests/shapes/bad.xyr")) else {
         panic!("accepted")
     };
-    let places: Vec<_> = refusals.iter().map(|refusal| refusal.place.as_str()).collect();
+    let places: Vec<_> = refusals.iter().map(|refusal| refusal.location.as_str()).collect();
     assert_eq!(places, ["line 4", "line 5", "line 6", "line 7"]);
     let Err(ShapeFileError::Shapes { problems, .. }) = load(&repository("tests/shapes/overlapping-rings.wkt")) else {
         panic!("accepted")

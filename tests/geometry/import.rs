@@ -261,7 +261,7 @@ fn what_cannot_be_read_is_refused_with_place_and_way_out() {
     }
     let found = refused("a.csv", b"0,0,1\n\xff\xfe", &m);
     let ShapeFileError::Parts { refusals, .. } = found else { panic!("{found}") };
-    assert_eq!(refusals[0].place, "line 2, byte 7");
+    assert_eq!(refusals[0].location, "line 2, byte 7");
     let _: &Refusal = &refusals[0];
 }
 

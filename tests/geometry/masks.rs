@@ -303,7 +303,7 @@ fn what_is_no_mask_is_refused_with_a_way_out() {
         assert!(refusals[0].to_string().contains(wanted), "{}", refusals[0]);
     }
     let options = MaskOptions { threshold: Some(1.5), ..MaskOptions::default() };
-    assert_eq!(read(&half, &options).unwrap_err()[0].place, "threshold");
+    assert_eq!(read(&half, &options).unwrap_err()[0].location, "threshold");
 }
 
 proptest::proptest! {

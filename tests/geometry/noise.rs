@@ -105,7 +105,7 @@ fn noise_is_read_with_the_porosity_of_its_pixels() {
                 continue;
             }
         };
-        rough += usize::from(read.notes.iter().any(|note| note.contains("narrow places")));
+        rough += usize::from(read.notes.iter().any(|note| note.contains("narrow points")));
         let found = Geometry::new(&read.spec).unwrap().porosity().value;
         let solid: Vec<bool> = image.pixels().map(|p| p[0] < 128).collect();
         let pore = without_specks(&solid).iter().filter(|solid| !**solid).count();
@@ -113,9 +113,9 @@ fn noise_is_read_with_the_porosity_of_its_pixels() {
         worst[usize::from(is_gray)] = worst[usize::from(is_gray)].max(off);
     }
     println!(
-        "{inputs} images, {refused} refused, {rough} with narrow places; porosity off by {worst:.4?} at most (binary, gray)"
+        "{inputs} images, {refused} refused, {rough} with narrow points; porosity off by {worst:.4?} at most (binary, gray)"
     );
     assert_eq!(refused, 0);
-    // Cut corners at narrow places. Gray pixels are counted by their share, which the count at the threshold only comes near to.
+    // Cut corners at narrow points. Gray pixels are counted by their share, which the count at the threshold only comes near to.
     assert!(worst[0] < 0.01, "{worst:?}");
 }

@@ -54,7 +54,7 @@ fn names_a_file(mistake: &Mistake, folder: &Path) -> bool {
 
 /// Whether it has a line and a column, or tells its place in words: a line, byte, record, feature, pixel or entity.
 fn has_place(mistake: &Mistake) -> bool {
-    if mistake.place.is_some() {
+    if mistake.location.is_some() {
         return true;
     }
     let message = mistake.message.as_str();

@@ -46,7 +46,7 @@ fn mistakes_of(text: &str, is_shape_file: bool) -> Vec<(usize, String)> {
     let mistakes = error.map_or(Vec::new(), |error| error.mistakes);
     let inside = folder.path().display().to_string();
     let place = |place: Option<(usize, usize)>| place.map_or(0, |(line, _)| line - 1);
-    mistakes.into_iter().map(|m| (place(m.place), m.message.replace(&inside, "FOLDER"))).collect()
+    mistakes.into_iter().map(|m| (place(m.location), m.message.replace(&inside, "FOLDER"))).collect()
 }
 
 /// A line of the text that is loaded, and whether it is the snippet's own.
@@ -288,7 +288,7 @@ fn a_throat_that_is_not_resolved_and_a_drop_in_the_solid_are_placed_in_the_case_
     };
     let error = loaded.refuse(check_against(&loaded.case, &facts)).unwrap_err().render();
     for part in
-        ["and has 2.5 particles, at least 5 are needed", "a spacing of 1.00e-5 m or less", "wholly inside the solid"]
+        ["and has 2.5 particles, at least 5 are needed", "a spacing of 1.00e-5 m or less", "entirely inside the solid"]
     {
         assert!(error.contains(part), "{error}");
     }

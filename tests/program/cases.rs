@@ -93,7 +93,7 @@ fn an_interrupted_and_resumed_run_leaves_the_same_bytes_as_an_unbroken_one() {
     let output = child.wait_with_output().unwrap();
     assert_code(&output, 130);
     assert!(stderr(&output).contains("interrupted: finishing the step and saving the state"), "{}", stderr(&output));
-    assert!(stdout(&output).contains("go on with --resume"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("continue with --resume"), "{}", stdout(&output));
     let broken = folder.path().join("broken");
     let report_of_broken = report(&broken);
     assert_eq!(report_of_broken["status"], "interrupted");

@@ -183,7 +183,7 @@ fn a_folder_in_which_a_run_is_going_on_is_refused_until_that_run_is_killed() {
         let output = run(folder.path(), "out", &[&["--set=time.end=1.0"], more].concat());
         assert_code(&output, 2);
         let process = format!("(process {} on ", child.id());
-        for words in ["a run is going on in", &process, "--out DIR"] {
+        for words in ["a run is in progress in", &process, "--out DIR"] {
             assert!(stderr(&output).contains(words), "`{words}` is missing: {}", stderr(&output));
         }
     }

@@ -1,4 +1,4 @@
-//! The way of a measurement from particles to angle, curvature and lengths, on states whose answer is known.
+//! Measurements from particles to angle, curvature and lengths, on states whose answer is known.
 
 use meniscus::analysis::phases::PhaseAreas;
 use meniscus::analysis::resample::{Samples, Stencils};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::support::flow::flow;
 use crate::support::program::{assert_code, meniscus, stdout};
-use meniscus::benchmarks::asked_for;
+use meniscus::benchmarks::requested_groups;
 use meniscus::case::MeasureSet;
 use meniscus::sph::measures::Group;
 use meniscus::sph::observe::Observation;
@@ -113,7 +113,7 @@ fn extent(left: f64, kind: &str) -> Vec<f64> {
     ));
     let set = MeasureSet { sessile_drop: true, ..MeasureSet::default() };
     let columns = |group: &Group| (group.columns)(&flow, &Observation::of(&flow, &[]));
-    asked_for(&set).iter().flat_map(columns).map(|(_, value)| value).collect()
+    requested_groups(&set).iter().flat_map(columns).map(|(_, value)| value).collect()
 }
 
 /// Issue: half a drop beside a symmetry side has one contact line, and its base and height vanished.

@@ -29,9 +29,9 @@ fn run(flow: &mut Flow, until: f64) {
 
 /// What is missing in the balance of each phase, in particles.
 fn missing(flow: &Flow) -> [i64; 2] {
-    let (came, left) = flow.state.fluxes.totals();
+    let (inflow, outflow) = flow.state.fluxes.totals();
     let inside = BoundaryFluxes::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
-    [0, 1].map(|i| flow.state.fluxes.at_start[i] as i64 + came[i] as i64 - left[i] as i64 - inside[i] as i64)
+    [0, 1].map(|i| flow.state.fluxes.initial[i] as i64 + inflow[i] as i64 - outflow[i] as i64 - inside[i] as i64)
 }
 
 #[test]
@@ -48,8 +48,8 @@ fn a_uniform_flow_passes_open_sides_and_stays_uniform() {
     assert!(worst < 1e-8, "{worst:.1e} m/s");
     assert_eq!(missing(&flow), [0, 0]);
     assert_eq!(flow.state.particles.fluids, start);
-    let (came, _) = flow.state.fluxes.totals();
-    assert_eq!(came[0], 300, "10 files, 3 mm long");
+    let (inflow, _) = flow.state.fluxes.totals();
+    assert_eq!(inflow[0], 300, "10 files, 3 mm long");
 }
 
 #[test]
@@ -117,8 +117,8 @@ fn layers_come_in_and_leave_as_layers() {
         let below = flow.state.particles.position[a].y < 5.0e-4;
         assert_eq!(flow.state.particles.phase[a] == Phase::Wetting, below, "at {:?}", flow.state.particles.position[a]);
     }
-    let (came, left) = flow.state.fluxes.totals();
-    assert_eq!((came, left), ([150; 2], [150; 2]));
+    let (inflow, outflow) = flow.state.fluxes.totals();
+    assert_eq!((inflow, outflow), ([150; 2], [150; 2]));
 }
 
 #[test]

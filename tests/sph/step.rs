@@ -286,7 +286,7 @@ fn the_curvature_of_a_resolved_wave_keeps_its_amplitude() {
         ));
         let (k, a) = (TAU / 1.0e-3, 0.3 * spacing);
         for x in &mut flow.state.particles.position[..flow.state.particles.fluids] {
-            // The stream function of the way is −(a/k) sin kx cos ky/2, which vanishes on both walls.
+            // The stream function of the displacement is −(a/k) sin kx cos ky/2, which vanishes on both walls.
             let (across, along) = (0.5 * k * x.y, k * x.x);
             *x += a * Vec2::new(0.5 * along.sin() * across.sin(), along.cos() * across.cos());
         }
@@ -324,19 +324,19 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
 fn the_density_error_correction_rests_where_the_fluid_does() {
     let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).config.method;
     // Share of the density error taken back in its time, where the fastest particle goes so many spacings in one that it does not shorten.
-    let share = |ways: f64| {
-        let speed = ways * method.spacing / method.density_correction_time(0.0);
+    let share = |displacement: f64| {
+        let speed = displacement * method.spacing / method.density_correction_time(0.0);
         method.density_correction_rate(speed) * method.density_correction_time(speed)
     };
     assert_eq!(
         (share(0.0), share(0.02), share(1.0)),
         (0.0, method.numerics.density_error_correction, method.numerics.density_error_correction)
     );
-    for (ways, of_all) in [(0.0025, 0.5), (0.005, 1.0)] {
+    for (displacement, of_all) in [(0.0025, 0.5), (0.005, 1.0)] {
         assert!(
-            (share(ways) - of_all * method.numerics.density_error_correction).abs() < 1e-15,
-            "{ways}: {}",
-            share(ways)
+            (share(displacement) - of_all * method.numerics.density_error_correction).abs() < 1e-15,
+            "{displacement}: {}",
+            share(displacement)
         );
     }
     // Errors come in time, not in steps.

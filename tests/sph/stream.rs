@@ -1,7 +1,7 @@
 //! The force of the other fluid on a drop, where it is known exactly: of given fields, and of a flow that has come to rest.
 
 use crate::support::flow::{flow, solver};
-use meniscus::benchmarks::asked_for;
+use meniscus::benchmarks::requested_groups;
 use meniscus::case::MeasureSet;
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
@@ -54,7 +54,7 @@ fn a_fluid_at_rest_under_a_body_force_has_no_drag() {
     press(&mut flow, |x| 300.0 * gravity.dot(&x) - 40.0);
     let found = along(&flow, &Observation::of(&flow, &[]), Vec2::x());
     let buoyancy = 300.0 * gravity.x * 0.5 * std::f64::consts::PI * RADIUS * RADIUS;
-    // The planes are exact; what is left is the way of the ends of the contour up the floor, times 40 Pa.
+    // The planes are exact; the remainder is the displacement of the ends of the contour up the floor, times 40 Pa.
     assert!(found.pressure.abs() < 1e-6 * buoyancy, "{found:?}, buoyancy {buoyancy:.3e}");
 }
 
@@ -127,7 +127,7 @@ fn at_rest_the_drag_on_a_layer_is_what_its_wall_and_its_weight_leave() {
 /// The columns of `[sph.measure.moving-drop]` at each of `records` until `end` (s).
 fn moving_drop(mut flow: Flow, records: u32, end: f64) -> Vec<Vec<f64>> {
     let measured = MeasureSet { moving_drop: true, ..MeasureSet::default() };
-    let [group] = asked_for(&measured)[..] else { panic!("one group") };
+    let [group] = requested_groups(&measured)[..] else { panic!("one group") };
     let mut row = |time: f64| {
         while flow.state.time < time {
             flow.step(time).unwrap();
@@ -148,7 +148,7 @@ fn held(sides: &str) -> Flow {
     ))
 }
 
-/// Issue: the way ahead was that of the noise of a drop that its lines hold, and changed 13 times in a run.
+/// Issue: the direction ahead was that of the noise of a pinned drop, and changed 13 times in a run.
 #[test]
 fn ahead_of_a_held_drop_is_the_way_of_the_stream_in_every_record() {
     let sides = "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n";

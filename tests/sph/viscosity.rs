@@ -200,7 +200,7 @@ fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
 /// [Brackbill1992]
 #[test]
 fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
-    // The corners of a square drop, and a lid that moves at once; the largest way of a step over h, from the page on forces.
+    // The corners of a square drop, and a lid that moves at once; the largest displacement in a step over h, from the page on forces.
     let drop = "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n\
                 [sph.interface]\ntension = 0.02\n[[sph.initial.wetting]]\nrectangle = { center = [0.0, 0.0], size = [6.0e-4, 6.0e-4] }\n\
                 [sph.numerics]\ntime-step-factor = 2.0\n";
@@ -212,9 +212,9 @@ fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
         flow.config.viscous_time = f64::INFINITY;
         for _ in 0..20 {
             flow.step(1.0).unwrap();
-            let way = flow.state.particles.fluid_speed() * flow.state.last_dt / flow.config.method.kernel.h;
+            let displacement = flow.state.particles.fluid_speed() * flow.state.last_dt / flow.config.method.kernel.h;
             // What shifted particles take along of the velocity around them comes on top.
-            assert!(way < 1.1 * 1.5 * limit, "{name}: {way} h in step {}", flow.state.steps);
+            assert!(displacement < 1.1 * 1.5 * limit, "{name}: {displacement} h in step {}", flow.state.steps);
         }
     }
 }

@@ -53,7 +53,7 @@ fn mistakes_of(text: &str) -> Vec<(usize, String)> {
     let here = format!("{}/", folder.path().display());
     let message = |text: &str| text.replace(&here, "").chars().take(LONGEST).collect::<String>();
     let mistakes = error.map_or(Vec::new(), |error: InputError| error.mistakes);
-    mistakes.iter().map(|m| (m.place.map_or(0, |place| place.0), message(&m.message))).collect()
+    mistakes.iter().map(|m| (m.location.map_or(0, |place| place.0), message(&m.message))).collect()
 }
 
 /// The snippet with the messages that it gives.

@@ -363,7 +363,7 @@ fn several_studies_run_one_after_the_other_each_into_its_own_folder() {
     std::fs::write(at("other/third.toml"), TWO.replace("drop.toml", "../drop.toml")).unwrap();
     let twice = study("run", &["third.toml", "other/third.toml"], &[]);
     assert_code(&twice, 2);
-    assert!(stderr(&twice).contains("two studies of the name third"), "{}", stderr(&twice));
+    assert!(stderr(&twice).contains("two studies named third"), "{}", stderr(&twice));
     let indexed = study("run", &all, &["--index", "1"]);
     assert_code(&indexed, 2);
     assert!(stderr(&indexed).contains("name that study alone"), "{}", stderr(&indexed));
@@ -389,7 +389,7 @@ fn a_folder_that_holds_something_else_is_left_alone() {
     let folder = folder_with(STUDY);
     let output = meniscus(folder.path(), &["study", "run", "study.toml", "--out", "."]);
     assert_code(&output, 2);
-    assert!(stderr(&output).contains("no study is in it"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("contains no study"), "{}", stderr(&output));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     let output = meniscus(folder.path(), &["study", "report", "study.toml", "--out", "nowhere"]);
     assert_code(&output, 2);

@@ -9,7 +9,7 @@ use meniscus::thin_film::grid_film::{Equation, GridFilm};
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Integrator, Tolerance};
 use meniscus::thin_film::particles::{ParticleMethod, Pull};
-use meniscus::thin_film::profile::{Foot, Profile, exponent};
+use meniscus::thin_film::profile::{ContactLine, Profile, exponent};
 use meniscus::thin_film::ring::{Line, Ring};
 
 const DROPLET: Droplet = Droplet { area: 0.25, half_width: 0.5, center: 0.0 };
@@ -33,8 +33,8 @@ fn profile(film: &GridFilm) -> Profile {
     Profile { x: film.grid().nodes(), height: film.state.height.clone(), slope, curvature }
 }
 
-fn foot(film: &GridFilm) -> Foot {
-    profile(film).foot(0.0).unwrap()
+fn contact_line(film: &GridFilm) -> ContactLine {
+    profile(film).contact_line(0.0).unwrap()
 }
 
 /// The exponent of `length` in time over a decade up to `end`.
@@ -132,7 +132,7 @@ fn droplets_in_the_plane_and_about_an_axis_spread_by_tanner_s_law() {
             Model::Precursor { film: 1.0e-3, slope: 0.0, slip: 0.0 },
         ] {
             let mut film = film(half(symmetry, model, 2.0, 500, 0.0), DROPLET, RULE);
-            let found = exponent_over_a_decade(&mut film, 50.0, |film| foot(film).position);
+            let found = exponent_over_a_decade(&mut film, 50.0, |film| contact_line(film).position);
             near(found, law, 0.0145);
         }
     }
@@ -149,7 +149,7 @@ fn cells_and_the_paper_s_differences_solve_the_same_equation() {
     ring.run(20.0).unwrap();
     // Both have the same steps, and errors of the square of the spacing over the filter length, 0.01, with factors below 0.01.
     near(cells.center_height(), ring.center_height(), 3.0e-5);
-    near(foot(&cells).position, foot(&ring).position, 1.0e-4);
+    near(contact_line(&cells).position, contact_line(&ring).position, 1.0e-4);
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn a_droplet_on_a_precursor_film_rests_at_its_angle() {
         let p = p - (thin / top).powi(3) / thin + (thin / top).powi(2) / thin;
         let energy = |h: f64| wall_energy(thin, h) - wall_energy(thin, beside) - p * (h - beside);
         let steepest = seen.height.iter().map(|&h| 2.0 * energy(h)).fold(0.0, f64::max).sqrt();
-        near(foot(&film).slope, steepest, 2.0e-3);
+        near(contact_line(&film).slope, steepest, 2.0e-3);
         // The slope of the parabola through the top where it meets the wall.
         (2.0 * top * -seen.curvature[0]).sqrt()
     });

@@ -69,7 +69,7 @@ fn a_completely_wetting_droplet_of_particles_reaches_the_known_state() {
     assert!(end.state.work.rates < 1500, "{:?}", end.state.work);
     near(end.last(), 1.142_002, 2.0e-6);
     near(end.center(), 0.166_871_0, 1.0e-6);
-    near(end.profile(2.0, 6400).foot(0.0).unwrap().position, 1.186_667, 2.0e-5);
+    near(end.profile(2.0, 6400).contact_line(0.0).unwrap().position, 1.186_667, 2.0e-5);
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn taking_off_the_lattice_energy_brings_particles_near_the_limit_of_fine_spacing
     let end = Particles::new(COMPLETE, 0.005, 0.0, LatticeEnergy::TakenOff, FilmIntegrator::Stiff).at(50.0);
     // The limit is 0.156117 and 1.24023; plain particles give 0.16687 and 1.18667 at this spacing.
     near(end.center(), 0.156_063, 1.0e-5);
-    near(end.profile(2.0, 6400).foot(0.0).unwrap().position, 1.240_38, 1.0e-4);
+    near(end.profile(2.0, 6400).contact_line(0.0).unwrap().position, 1.240_38, 1.0e-4);
 }
 
 /// [Pang2022, Eqs. 76-83]

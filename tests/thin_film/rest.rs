@@ -86,7 +86,7 @@ fn particles_that_rest_at_another_angle_say_at_which_before_the_run() {
         // Beyond 40 degrees the lattice is a smaller part of the slope.
         assert!((found / told - 1.0).abs() < 0.02 && found > 1.05 * angle, "{angle} {per_filter}: {found}, {told}");
         let warned = warnings(&case, solver.as_ref());
-        assert!(warned.contains(&format!("rests at {told:.1} degrees in place of {angle:.1}")), "{warned}");
+        assert!(warned.contains(&format!("comes to rest at {told:.1} degrees instead of {angle:.1}")), "{warned}");
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn droplets(checker: &mut Checker, raw: &[RawDroplet], symmetry: Film
         if symmetry == FilmSymmetry::Axis && center != 0.0 {
             checker.refuse(
                 format!("thin-film.droplets[{index}].center"),
-                format!("the middle of a droplet about an axis is at x = 0, found {center:e} m"),
+                format!("an axisymmetric droplet is centered at x = 0, found {center:e} m"),
                 "leave it out, or set symmetry = \"plane\"",
             );
         }
@@ -57,7 +57,7 @@ pub(super) fn droplets(checker: &mut Checker, raw: &[RawDroplet], symmetry: Film
             checker.refuse(
                 "thin-film.droplets",
                 format!("the droplets at {:e} and {:e} m overlap", pair[0].center, pair[1].center),
-                "move them apart, or make one droplet of them",
+                "move them apart, or merge them into one",
             );
         }
     }
@@ -70,14 +70,14 @@ pub(super) fn domain(checker: &mut Checker, geometry: &GeometrySpec, droplets: &
         checker.refuse(
             "geometry",
             "expected a flat wall at y = 0 without solids, found shapes",
-            "leave out the shapes; `min` and `max` say how much of the wall is of interest",
+            "leave out the shapes; `min` and `max` delimit the wall",
         );
     }
     let [left, right] = [geometry.min[0], geometry.max[0]];
     if symmetry == FilmSymmetry::Axis && left != 0.0 {
         checker.refuse(
             "geometry.min",
-            format!("a film about an axis begins at x = 0, found {left:e} m"),
+            format!("an axisymmetric film starts at x = 0, found {left:e} m"),
             "set the first number to 0.0, or symmetry = \"plane\"",
         );
     }
@@ -87,7 +87,7 @@ pub(super) fn domain(checker: &mut Checker, geometry: &GeometrySpec, droplets: &
         if over_left || droplet.center + droplet.half_width >= right {
             checker.refuse(
                 format!("thin-film.droplets[{index}].half-width"),
-                format!("the droplet at {:e} m reaches over the domain, from {left:e} to {right:e} m", droplet.center),
+                format!("the droplet at {:e} m exceeds the domain, from {left:e} to {right:e} m", droplet.center),
                 "take a wider domain",
             );
         }

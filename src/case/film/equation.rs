@@ -119,7 +119,7 @@ pub(super) fn wetting(checker: &mut Checker, raw: &RawFilmWetting) -> Option<Opt
 /// Which equations support a droplet at rest.
 pub(super) fn partial_wetting(checker: &mut Checker, equation: FilmEquation, symmetry: FilmSymmetry) {
     let message = match (equation, symmetry) {
-        (FilmEquation::Slip(_), _) => "the equation with slip is for complete wetting: it does not know an angle",
+        (FilmEquation::Slip(_), _) => "the equation with slip is for complete wetting: it has no contact angle",
         (FilmEquation::Geometric(_), FilmSymmetry::Axis) => {
             "the wetting parameter of the geometric equation is known for plane droplets only"
         }

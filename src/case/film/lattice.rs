@@ -40,7 +40,7 @@ impl ThinFilm {
         let spacing = self.spacing * (excess(VISIBLE) / excess(error)).sqrt();
         (error > VISIBLE).then(|| {
             format!(
-                "the lattice of particles holds the contact line back: the film rests at {:.1} degrees in place of {:.1}; finite differences, or \
+                "the particle lattice holds the contact line back: the film comes to rest at {:.1} degrees instead of {:.1}; finite differences, or \
                  a spacing of {spacing:.1e} m, would do",
                 found.atan().to_degrees(),
                 wanted.to_degrees()

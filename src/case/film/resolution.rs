@@ -129,8 +129,8 @@ fn coarse(checker: &mut Checker, spacing: f64, film: f64) {
     if exceeds(spacing, COARSEST_FOR_FILM * film) {
         checker.refuse(
             "thin-film.spacing",
-            format!("the contact line is {film:.2e} of a droplet wide, a spacing is {spacing:.2e} of it"),
-            format!("{COARSEST_FOR_FILM} spacings less coarse would do: the spacing over the half width is to be below {COARSEST_FOR_FILM} times the height of film or slip over that of the droplet"),
+            format!("relative to the droplet, the contact line is {film:.2e} wide and a spacing {spacing:.2e}"),
+            format!("use a finer spacing: the spacing over the half width must be below {COARSEST_FOR_FILM} times the height of film or slip over that of the droplet"),
         );
     }
 }

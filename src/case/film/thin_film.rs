@@ -57,7 +57,7 @@ pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid>
         if raw.tension.is_some() {
             let help =
                 "add [thin-film.fluid] with preset = \"water\" or viscosity in Pa s; leave out both for scaled units";
-            checker.refuse("thin-film.tension", "there is a tension, and no fluid", help);
+            checker.refuse("thin-film.tension", "a tension is given without a fluid", help);
             return None;
         }
         let (viscosity, tension, density) = SCALED;
@@ -114,8 +114,8 @@ pub(in crate::case) fn thin_film(
     {
         checker.refuse(
             "thin-film.method.particles.lattice-energy",
-            "the lattice energy can be taken off one droplet, and there are several",
-            "where droplets meet their lattices would not fit; take a smaller spacing, or finite differences",
+            "the lattice energy can be subtracted for one droplet only, and there are several",
+            "where droplets merge, their lattices do not match; take a smaller spacing, or finite differences",
         );
     }
     if let Some(geometry) = geometry {

@@ -18,7 +18,7 @@ const STEEPEST: f64 = 5.0;
 const RATIOS: (f64, f64) = (1e-6, 1e3);
 /// Fewest spacings in the capillary length, which is the width of the rim of a puddle.
 const FEWEST_IN_RIM: f64 = 2.0;
-/// Duration of the motion of a film in units of its time scale; it is at rest long before.
+/// Duration of the motion of a film in units of its time scale; it is at rest long before that.
 const MOVES: f64 = 1000.0;
 /// A film that runs for a smaller fraction of the same time is still far from its contact angle at the end.
 const FAR_FROM_REST: f64 = 0.01;
@@ -39,7 +39,7 @@ pub(super) fn steepness(checker: &mut Checker, film: &ThinFilm) {
                     "expected a height of {least:e} to {most:?} half widths of {:e} m, found {:e} m",
                     droplet.half_width, droplet.height
                 ),
-                "a film is thin where its slope is below one half or so; steeper droplets are for [sph]",
+                "a film is thin where its slope is below one half or so; use [sph] for steeper droplets",
             );
         }
     }
@@ -77,7 +77,7 @@ pub(super) fn room(checker: &mut Checker, film: &ThinFilm, geometry: &GeometrySp
             checker.refuse(
                 "thin-film.wetting.partial.contact-angle-deg",
                 format!(
-                    "at rest at {:.3} degrees the droplet at {:e} m reaches {reach:.2e} m to each side, over the domain from {left:e} to {right:e} m",
+                    "at rest at {:.3} degrees the droplet at {:e} m extends {reach:.2e} m to each side, beyond the domain from {left:e} to {right:e} m",
                     angle.to_degrees(),
                     droplet.center
                 ),
@@ -101,7 +101,7 @@ impl ThinFilm {
         let [_, _, time] = self.scales();
         if self.contact_angle.is_some() && exceeds(end, MOVES * time) {
             notes.push(format!(
-                "the end is {:.0} times the {time:.1e} s in which this film moves, expected at most {MOVES:.0}: it is at rest long before; \
+                "the end is {:.0} times the {time:.1e} s in which this film moves, expected at most {MOVES:.0}: it is at rest long before that; \
                  end = {:.1e} would do",
                 end / time,
                 USUAL_END * time

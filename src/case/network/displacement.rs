@@ -94,14 +94,14 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
     if checker.is_given("network.cycles", raw.cycles.as_ref()) && !matches!(process, Process::Cycle(_)) {
         checker.refuse(
             "network.cycles",
-            "only cycles are counted, and the process is none",
+            "only cycles are counted, and the process is not a cycle",
             "set process = \"cycle\", or leave this out",
         );
     }
     if matches!(process, Process::Cycle(_)) && raw.outlet.is_none() {
         checker.refuse(
             "network.process",
-            "a cycle needs an outlet: the wetting phase comes back through it",
+            "a cycle needs an outlet: the wetting phase returns through it",
             "add outlet = \"right\", say",
         );
     }
@@ -122,7 +122,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
 /// Refuses a state with other walls and periodic sides; open sides may change.
 pub(super) fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &Sides) {
     if let Some((_, misfit)) = start.state.misfit_of_sides(sides) {
-        let message = format!("{} is the state of other sides: {misfit}", start.file.display());
+        let message = format!("{} was written for other sides: {misfit}", start.file.display());
         checker.refuse("network.initial", message, "give this case the sides of the state");
     }
 }
@@ -132,14 +132,14 @@ fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
     if given.breakthrough == Some(true) && raw.outlet.is_none() {
         checker.refuse(
             "network.stop.breakthrough",
-            "there is no outlet to break through at",
+            "breakthrough needs an outlet",
             "add outlet = \"right\", say, or leave this out",
         );
     }
     if checker.is_given("network.stop.injected", given.injected.as_ref()) && raw.dynamic.is_none() {
         checker.refuse(
             "network.stop.injected",
-            "injected volumes are those of a displacement in time, and this one is quasi-static",
+            "injected volumes need a displacement in time, and this one is quasi-static",
             "end at a saturation, or add [network.dynamic]",
         );
     }

@@ -57,7 +57,7 @@ pub(super) fn drive(
         }
     };
     if raw.outlet.is_none() {
-        let message = "a displacement in time needs an outlet: the phase that is displaced leaves through it";
+        let message = "a displacement in time needs an outlet: the displaced phase leaves through it";
         checker.refuse("network.outlet", message, "add outlet = \"right\", say");
     }
     let phases = raw.phases.clone().unwrap_or_default();
@@ -74,7 +74,7 @@ pub(super) fn drive(
         ("process", is_cycle, "a cycle", "take drainage or imbibition"),
         ("events", raw.events == Some(Events::Burst), "invasion percolation", "leave events out"),
         ("trapping", raw.trapping.is_some(), "a rule for trapping", "leave it out: what cannot flow out is trapped"),
-        ("films", raw.films == Some(true), "what corner films do at rest", "leave films out"),
+        ("films", raw.films == Some(true), "quasi-static corner films", "leave films out"),
         (
             "stop.capillary-pressure",
             raw.stop.as_ref().is_some_and(|stop| stop.capillary_pressure.is_some()),

@@ -11,7 +11,7 @@ pub(in crate::case) fn refuse_films(checker: &mut Checker, network: &PoreNetwork
     const KEY: &str = "network.films";
     let Some(displacement) = network.displacement.as_ref().filter(|displacement| displacement.films) else { return };
     if depth.is_none() {
-        let message = "films stand in the corners of walls with floor and lid, and a plane has none";
+        let message = "corner films lie between walls and floor or lid, and a plane has neither";
         return checker.refuse(KEY, message, "add depth = 50e-6 to [geometry], or leave films out");
     }
     let Some(interface) = &network.interface else { return };
@@ -25,7 +25,7 @@ pub(in crate::case) fn refuse_films(checker: &mut Checker, network: &PoreNetwork
         let [wall, plate] = smallest_angles(interface, end).map(f64::to_degrees);
         if wall + plate >= 90.0 {
             let message = format!(
-                "no corner holds a film in {name}: the smallest angles of a wall and of a plate, {wall:.1} and {plate:.1} degrees, sum to 90 or more"
+                "no corner has a film in {name}: the smallest angles of a wall and of a plate, {wall:.1} and {plate:.1} degrees, sum to 90 or more"
             );
             let help = "films need wall and plate angles that sum to less than 90 degrees; leave films out, or change the angles";
             return checker.refuse(KEY, message, help);

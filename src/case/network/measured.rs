@@ -48,7 +48,7 @@ pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder
         Err(error) => checker.refuse(PATH, format!("{} cannot be read: {error}", path.display()), help),
         Ok(bytes) => match serde_json::from_slice::<Measured>(&bytes) {
             Err(error) => {
-                checker.refuse(PATH, format!("{} is no list of measured throats: {error}", path.display()), help)
+                checker.refuse(PATH, format!("{} is not a list of measured throats: {error}", path.display()), help)
             }
             Ok(measured) => completed.measured_throats = Some(table(&measured)),
         },

@@ -199,7 +199,7 @@ fn interface(
         if patch.stripes.is_some() {
             checker.refuse(
                 format!("network.wetting.patches[{index}].stripes"),
-                "menisci of a network stand between whole walls, and stripes divide a wall",
+                "menisci of a network lie between walls of one angle each, and stripes divide a wall",
                 "give the patch a shape or a side; a striped wall can be written as several shapes side by side",
             );
         }
@@ -215,7 +215,7 @@ fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
     let (name, angle) = (model.table().key, model.static_angle().to_degrees());
     checker.refuse(
         format!("network.wetting.{name}"),
-        format!("`{name}` is a law of the speed of contact lines, and a quasi-static displacement has no speed"),
+        format!("`{name}` depends on the speed of contact lines, and a quasi-static displacement has none"),
         format!("take [network.wetting.young] with the static angle, contact-angle-deg = {angle:.1}"),
     );
     None

@@ -124,7 +124,7 @@ pub(super) fn refuse_tables(checker: &mut Checker, raw: &RawNetwork, tables: Tab
         return;
     }
     if raw.outlet.is_none() {
-        let message = "relative permeabilities are those from the inlet to an outlet, and there is none";
+        let message = "relative permeabilities need an outlet, and there is none";
         checker.refuse("network.output", message, "add outlet = \"right\", say, or leave out [network.output]");
     }
     if raw.dynamic.is_some() {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::geometry::curve::{Curve, cross};
-use crate::geometry::intersect::meeting_places;
+use crate::geometry::intersect::intersections;
 use crate::math::{Bounds, perpendicular};
 
 /// The angle in rad, positive to the left, from the end of one curve to the start of the next one.
@@ -37,7 +37,7 @@ pub(super) fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], toleran
         for level in [frame.min[i], frame.max[i]] {
             let (mut a, mut b) = (far.min, far.max);
             (a[i], b[i]) = (level, level);
-            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut parameters);
+            intersections(curve, &Curve::Segment { a, b }, tolerance, &mut parameters);
         }
     }
     parameters.retain(|u| u.is_finite());

@@ -11,7 +11,7 @@ use crate::geometry::critical::shift::{Shift, minus};
 use crate::geometry::critical::slope::{Along, Slope, slope};
 use crate::geometry::critical::walls::{Contact, Walls};
 use crate::geometry::curve::{Curve, cross};
-use crate::geometry::intersect::meeting_places;
+use crate::geometry::intersect::intersections;
 use crate::math::{Vec2, perpendicular};
 
 /// A section along one segment or arc.
@@ -268,7 +268,7 @@ fn first_hit(walls: &Walls, axis: &Curve, along: &[Along; 2], half: f64) -> (f64
     let mut parameters = vec![0.0, 1.0];
     for (wall, shift) in walls.within(middle, reach) {
         for offset in offsets(&walls.curve(wall, shift), half) {
-            meeting_places(axis, &offset, walls.tolerance, &mut parameters);
+            intersections(axis, &offset, walls.tolerance, &mut parameters);
         }
     }
     parameters.sort_by(f64::total_cmp);
@@ -306,7 +306,7 @@ fn leaving(walls: &Walls, axis: &Curve, until: f64) -> Option<f64> {
         for level in [domain.min[i], domain.max[i]] {
             let (mut a, mut b) = (far.min, far.max);
             (a[i], b[i]) = (level, level);
-            meeting_places(axis, &Curve::Segment { a, b }, walls.tolerance, &mut parameters);
+            intersections(axis, &Curve::Segment { a, b }, walls.tolerance, &mut parameters);
         }
     }
     parameters.retain(|&u| u <= until);

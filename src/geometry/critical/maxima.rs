@@ -57,7 +57,7 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
 
 /// The maximum at a point whose wall distance is `radius` (m), if it is one.
 fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maximum> {
-    if !walls.is_seen(nearest, x - nearest.point) {
+    if !walls.is_visible(nearest, x - nearest.point) {
         return None;
     }
     let maximum = at(walls, x, radius);

@@ -78,18 +78,18 @@ fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
 }
 
 /// The items with distinct centers, sorted by these; of coincident ones the largest.
-fn one_of_each<T>(mut found: Vec<T>, place: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
+fn one_of_each<T>(mut found: Vec<T>, key: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
     found.sort_by(|a, b| {
-        let (p, q) = (place(a), place(b));
+        let (p, q) = (key(a), key(b));
         p.0.x.total_cmp(&q.0.x).then(p.0.y.total_cmp(&q.0.y)).then(p.1.total_cmp(&q.1))
     });
     let mut kept: Vec<T> = Vec::new();
     for thing in found {
-        let (x, size) = place(&thing);
+        let (x, size) = key(&thing);
         let near = SAME_PLACE * size;
-        let mut known = kept.iter_mut().rev().take_while(|other| x.x - place(other).0.x <= near);
-        match known.find(|other| (x - place(other).0).norm() <= near) {
-            Some(other) if place(other).1 < size => *other = thing,
+        let mut known = kept.iter_mut().rev().take_while(|other| x.x - key(other).0.x <= near);
+        match known.find(|other| (x - key(other).0).norm() <= near) {
+            Some(other) if key(other).1 < size => *other = thing,
             Some(_) => {}
             None => kept.push(thing),
         }

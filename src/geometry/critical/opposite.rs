@@ -93,8 +93,8 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
         ];
         let opposite = Opposite::between(contacts.map(|contact| walls.at_vertex(contact)));
         let across = opposite.across();
-        if walls.is_seen(&opposite.contacts[0], across)
-            && walls.is_seen(&opposite.contacts[1], -across)
+        if walls.is_visible(&opposite.contacts[0], across)
+            && walls.is_visible(&opposite.contacts[1], -across)
             && walls.is_within(opposite.center)
             && opposite.is_nearly_empty(walls)
         {
@@ -206,8 +206,8 @@ fn level_parameters(a: &Curve, b: &Curve, near: Vec2) -> Option<[f64; 2]> {
             if !(margin > 0.0) {
                 return None;
             }
-            let place = along(near).clamp(low + margin, high - margin);
-            Some([place / along(q), (place - along(r)) / (along(s) - along(r))])
+            let middle = along(near).clamp(low + margin, high - margin);
+            Some([middle / along(q), (middle - along(r)) / (along(s) - along(r))])
         }
         (Curve::Arc { center: c, radius, sweep, .. }, Curve::Arc { center: d, radius: other, sweep: turn, .. }) => {
             // A convex arc within a concave one.

@@ -313,7 +313,7 @@ impl Walls {
     }
 
     /// Whether a point in the direction `v` from a wall point lies on its pore side: along the normal, or within the cone of a vertex.
-    pub(crate) fn is_seen(&self, contact: &Contact, v: Vec2) -> bool {
+    pub(crate) fn is_visible(&self, contact: &Contact, v: Vec2) -> bool {
         // Tolerance for directions outside the cone by rounding.
         let slack = 1e-6 * v.norm();
         match self.tangents(contact) {

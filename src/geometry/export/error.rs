@@ -4,15 +4,13 @@
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// Unknown file extension.
-    #[error(
-        "`.{ending}` names no format that can be written; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtu"
-    )]
+    #[error("`.{ending}` is not a supported output format; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtu")]
     Ending {
         /// The extension.
         ending: String,
     },
     /// A list can hold discs only.
-    #[error("{others} of {all} shapes are no discs, and a list holds discs only; write .toml, .svg or .dxf")]
+    #[error("{others} of {all} shapes are not discs, and a list contains discs only; write .toml, .svg or .dxf")]
     NoDisc {
         /// Number of other shapes.
         others: usize,

@@ -47,7 +47,7 @@ pub(crate) enum Refused {
 /// A shape and its source location.
 struct Placed {
     shape: ShapeSpec,
-    place: String,
+    location: String,
 }
 
 /// The shapes of a drawing in m.
@@ -62,10 +62,10 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let frame = frame.or(chip);
     let mut shapes = Vec::new();
     let regions = grouped(outlines, nesting, &mut notes, &mut refusals).into_iter();
-    let sound =
-        regions.flat_map(|(region, place)| without_slits(region).into_iter().map(move |one| (one, place.clone())));
-    for (region, place) in sound {
-        shapes.push(Placed { shape: recognized(region, is_of_pixels, options, &mut notes.counts), place });
+    let sound = regions
+        .flat_map(|(region, location)| without_slits(region).into_iter().map(move |one| (one, location.clone())));
+    for (region, location) in sound {
+        shapes.push(Placed { shape: recognized(region, is_of_pixels, options, &mut notes.counts), location });
     }
     if !refusals.is_empty() {
         return Err(Refused::Parts(refusals));
@@ -73,7 +73,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     if shapes.is_empty() {
         let found = "no outline that encloses an area".to_owned();
         let expected = "closed shapes; what was read and not used: ".to_owned() + &notes.unused();
-        return Err(Refused::Parts(vec![Refusal { place: "file".into(), found, expected }]));
+        return Err(Refused::Parts(vec![Refusal { location: "file".into(), found, expected }]));
     }
     let around = bounds_of_points(shapes.iter().flat_map(|placed| corners_of(&placed.shape)));
     let (domain, from) = domain(around, frame, options);
@@ -87,14 +87,14 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
         }
     }
     notes.counts.shapes(shapes.iter().map(|placed| &placed.shape));
-    let (places, shapes): (Vec<_>, Vec<_>) = shapes.into_iter().map(|placed| (placed.place, placed.shape)).unzip();
+    let (locations, shapes): (Vec<_>, Vec<_>) = shapes.into_iter().map(|one| (one.location, one.shape)).unzip();
     let solid = if options.is_inverted() && !is_of_pixels { SolidSide::Outside } else { SolidSide::Inside };
     let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
     let problems = spec.problems();
     if problems.is_empty() {
         Ok(Imported { spec, depth: None, notes: notes.lines(options) })
     } else {
-        Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &places)).collect()))
+        Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &locations)).collect()))
     }
 }
 
@@ -123,13 +123,13 @@ pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Impo
 }
 
 /// The problem with the source location prepended to its path.
-fn placed(problem: Problem, places: &[String]) -> Problem {
+fn placed(problem: Problem, locations: &[String]) -> Problem {
     let index = problem.path.strip_prefix("shapes[").and_then(|rest| rest.split(']').next()?.parse::<usize>().ok());
-    match index.and_then(|index| places.get(index)) {
+    match index.and_then(|index| locations.get(index)) {
         // The index counts internal shapes, which are not visible to the user.
-        Some(place) => {
+        Some(location) => {
             let keys = problem.path.split_once("].").map_or("", |(_, keys)| keys);
-            Problem { path: format!("{place}, {keys}"), ..problem }
+            Problem { path: format!("{location}, {keys}"), ..problem }
         }
         None => problem,
     }
@@ -148,7 +148,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     let size = scale * bounds_of_points(entities.iter().flat_map(corner)).size().max();
     let tolerance = DOUBLED * size;
     let mut found = Vec::with_capacity(entities.len());
-    for Entity { outline, paint, place } in entities {
+    for Entity { outline, paint, location } in entities {
         // The bulge of a vertex is not a length.
         let lengths: Vec<f64> = match &outline {
             Outline::Disc { center, radius } => vec![center.x, center.y, *radius],
@@ -158,17 +158,17 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
         };
         if let Some(length) = lengths.iter().map(|length| length * scale).find(|m| !(m.abs() <= LARGEST)) {
             let expected = format!("lengths of at most {LARGEST:e} m; is the unit of the file right?");
-            refusals.push(Refusal { place, found: format!("a length of {length:e} m"), expected });
+            refusals.push(Refusal { location, found: format!("a length of {length:e} m"), expected });
             continue;
         }
         match outline {
             Outline::Disc { radius, .. } if !(radius * scale > tolerance) => {
                 let found = format!("a disc of radius {radius:e}");
-                refusals.push(Refusal { place, found, expected: "a radius above 0".into() });
+                refusals.push(Refusal { location, found, expected: "a radius above 0".into() });
             }
             Outline::Disc { center, radius } => {
                 let outline = Outline::Disc { center: center * scale, radius: radius * scale };
-                found.push(Entity { outline, paint, place });
+                found.push(Entity { outline, paint, location });
             }
             Outline::Area { rings, rule } => {
                 let mut kept = Vec::with_capacity(rings.len());
@@ -182,7 +182,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
                     }
                 }
                 if !kept.is_empty() {
-                    found.push(Entity { outline: Outline::Area { rings: kept, rule }, paint, place });
+                    found.push(Entity { outline: Outline::Area { rings: kept, rule }, paint, location });
                 }
             }
         }
@@ -201,10 +201,10 @@ fn grouped(
         return nested_entities(entities, notes, refusals);
     }
     let mut found = Vec::with_capacity(entities.len());
-    for Entity { outline, paint, place } in entities {
+    for Entity { outline, paint, location } in entities {
         match regions_of(outline, nesting) {
-            Ok(regions) => found.push(Painted { regions, paint, place }),
-            Err((found, expected)) => refusals.push(Refusal::new(place, found, expected)),
+            Ok(regions) => found.push(Painted { regions, paint, location }),
+            Err((found, expected)) => refusals.push(Refusal::new(location, found, expected)),
         }
     }
     solids(found, notes, refusals)
@@ -258,18 +258,18 @@ fn crossing_rings(rings: &[Ring]) -> Option<String> {
 /// All rings of a drawing without fills: those inside others are holes, those inside holes islands.
 fn nested_entities(entities: Vec<Entity>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
     let mut all = Vec::new();
-    for Entity { outline, place, .. } in entities {
+    for Entity { outline, location, .. } in entities {
         let own = match outline {
             Outline::Disc { center, radius } => vec![circle(center, radius)],
             Outline::Area { rings, .. } => rings,
         };
-        all.extend(own.into_iter().map(|ring| (ring, place.clone())));
+        all.extend(own.into_iter().map(|ring| (ring, location.clone())));
     }
-    let (rings, places): (Vec<Ring>, Vec<String>) = overlap::resolved(all, notes, refusals).into_iter().unzip();
+    let (rings, locations): (Vec<Ring>, Vec<String>) = overlap::resolved(all, notes, refusals).into_iter().unzip();
     let all = nested(&rings, FillRule::EvenOdd);
     let region = |nested: Nested| {
         let holes = nested.holes.iter().map(|&i| rings[i].clone()).collect();
-        ((rings[nested.outer].clone(), holes), places[nested.outer].clone())
+        ((rings[nested.outer].clone(), holes), locations[nested.outer].clone())
     };
     all.into_iter().map(region).collect()
 }

@@ -56,8 +56,8 @@ fn closed(curves: &[Curve], tolerance: f64) -> Option<Vec<Region>> {
     for first in 0..curves.len() {
         let mut ring = Ring::default();
         let mut at = first;
-        while let Some(place) = leaving[ends[at][0]].iter().position(|&i| i == at) {
-            leaving[ends[at][0]].swap_remove(place);
+        while let Some(slot) = leaving[ends[at][0]].iter().position(|&i| i == at) {
+            leaving[ends[at][0]].swap_remove(slot);
             ring.vertices.extend(vertices(&curves[at]));
             if ends[at][1] == ends[first][0] && leaving[ends[at][1]].is_empty() {
                 break;

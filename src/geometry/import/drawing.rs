@@ -65,7 +65,7 @@ pub struct Entity {
     /// Its fill.
     pub paint: Paint,
     /// Its source location for messages: `line 12`, `LWPOLYLINE 2F`, `feature 3`.
-    pub place: String,
+    pub location: String,
 }
 
 /// A unit of length.
@@ -122,7 +122,7 @@ pub struct Drawing {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
     /// Its source location: `line 12`, `LWPOLYLINE 2F`, `pixel (3, 4)`.
-    pub place: String,
+    pub location: String,
     /// What was found there.
     pub found: String,
     /// What was expected instead, or a remedy.
@@ -131,14 +131,14 @@ pub struct Refusal {
 
 impl Refusal {
     /// A refusal with its three parts.
-    pub(crate) fn new(place: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { place: place.into(), found: found.into(), expected: expected.into() }
+    pub(crate) fn new(location: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { location: location.into(), found: found.into(), expected: expected.into() }
     }
 }
 
 impl std::fmt::Display for Refusal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: found {}, expected {}", self.place, self.found, self.expected)
+        write!(f, "{}: found {}, expected {}", self.location, self.found, self.expected)
     }
 }
 

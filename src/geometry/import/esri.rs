@@ -16,8 +16,8 @@ const POLYGON_HEAD: usize = 44;
 
 /// Reads the bytes of a main file; `projection` is the text of the `.prj` file, if any.
 pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Vec<Refusal>> {
-    let refuse = |place: &str, found: String, expected: &str| {
-        vec![Refusal { place: place.into(), found, expected: expected.into() }]
+    let refuse = |location: &str, found: String, expected: &str| {
+        vec![Refusal { location: location.into(), found, expected: expected.into() }]
     };
     let unit = match projection.map(unit_of) {
         None => None,
@@ -25,7 +25,7 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
         Some(Err(found)) => return Err(refuse("file .prj", found, PROJECTED)),
     };
     if bytes.len() < HEADER || big(bytes, 0) != Some(FILE_CODE) {
-        let found = format!("{} bytes that begin otherwise", bytes.len());
+        let found = format!("{} bytes with another beginning", bytes.len());
         return Err(refuse(
             "byte 0",
             found,
@@ -37,7 +37,7 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
     let mut number = 0_usize;
     while at < bytes.len() {
         number += 1;
-        let place = format!("record {number}");
+        let location = format!("record {number}");
         // Lengths are counted in words of 2 bytes.
         let length = big(bytes, at + 4).and_then(|words| usize::try_from(words).ok()).map(|words| 2 * words);
         let content = length.and_then(|length| bytes.get(at + 8..(at + 8).checked_add(length)?));
@@ -48,14 +48,14 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
                 }
                 None => "no length".into(),
             };
-            bad.push(Refusal { place, found, expected: "a whole record: the file is cut off or damaged".into() });
+            bad.push(Refusal { location, found, expected: "a complete record: the file is truncated".into() });
             break;
         };
         at += 8 + content.len();
         match record(content, &mut drawing) {
-            Ok(Some(outline)) => drawing.entities.push(Entity { outline, paint: Paint::Filled, place }),
+            Ok(Some(outline)) => drawing.entities.push(Entity { outline, paint: Paint::Filled, location }),
             Ok(None) => {}
-            Err((found, expected)) => bad.push(Refusal { place, found, expected }),
+            Err((found, expected)) => bad.push(Refusal { location, found, expected }),
         }
     }
     if bad.is_empty() && drawing.entities.is_empty() {
@@ -176,7 +176,7 @@ mod tests {
         assert!(unit_of(WGS84).unwrap_err().contains("degrees"));
         assert!(unit_of("LOCAL_CS[\"chip\"]").unwrap_err().contains("chip"));
         assert_eq!(unit_of("LOCAL_CS[\"chip\",UNIT[\"mm\",0.001]]").unwrap().meters, 1e-3);
-        assert!(read(&[0; 200], Some(WGS84)).unwrap_err()[0].place.contains(".prj"));
+        assert!(read(&[0; 200], Some(WGS84)).unwrap_err()[0].location.contains(".prj"));
     }
 
     #[test]
@@ -191,7 +191,7 @@ mod tests {
         bytes.extend((record.len() as i32 / 2).to_be_bytes());
         bytes.extend(&record);
         let bad = read(&bytes, None).unwrap_err();
-        assert!(bad[0].place == "record 1" && bad[0].found.contains("1000000000 points"), "{}", bad[0]);
+        assert!(bad[0].location == "record 1" && bad[0].found.contains("1000000000 points"), "{}", bad[0]);
         bytes.truncate(120);
         assert!(read(&bytes, None).unwrap_err()[0].expected.contains("cut off"));
     }

@@ -10,7 +10,7 @@ use crate::geometry::curve::Curve;
 use crate::geometry::import::combine;
 use crate::geometry::import::drawing::{FillRule, Ring};
 use crate::geometry::import::nest::{Region, regions};
-use crate::geometry::intersect::meeting_places;
+use crate::geometry::intersect::intersections;
 use crate::geometry::rings::faults;
 use crate::math::{Bounds, Vec2};
 
@@ -64,7 +64,7 @@ fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
             }
             for (one, other) in [(a, b), (b, a)] {
                 let mut parameters = Vec::new();
-                meeting_places(&one.curve, &other.curve, tolerance, &mut parameters);
+                intersections(&one.curve, &other.curve, tolerance, &mut parameters);
                 let end = tolerance / one.curve.length();
                 if let Some(&u) = parameters.iter().find(|u| end < **u && **u < 1.0 - end) {
                     let here = (one.ring, one.number, one.curve.point(u));

@@ -38,8 +38,9 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, notes: &mut Notes) -> Option
     if inside.len() < fewest || 2 * inside.len() <= others || is_hole {
         return None;
     }
-    let (place, paint) = (outlines[largest].place.clone(), &outlines[largest].paint);
-    let found = format!("{place}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
+    let (location, paint) = (outlines[largest].location.clone(), &outlines[largest].paint);
+    let found =
+        format!("{location}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
     if inside.iter().any(|&i| outlines[i].paint == *paint) {
         notes.add(format!(
             "{found} on its own layer: it is read as solid, with them as holes. If it is the frame of the chip, put it on a layer of its own."

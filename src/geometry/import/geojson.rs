@@ -57,7 +57,7 @@ impl Reader {
         if let Some(value) = unit {
             match value.as_str().and_then(units::by_name) {
                 Some(unit) => self.drawing.unit = Some(unit),
-                None => self.refuse("member `unit`", value.to_string(), units::way_out()),
+                None => self.refuse("member `unit`", value.to_string(), units::known_units()),
             }
         }
         if let Some(value) = domain {
@@ -70,14 +70,14 @@ impl Reader {
         }
     }
 
-    fn refuse(&mut self, place: &str, found: String, expected: String) {
-        self.bad.push(Refusal { place: place.into(), found, expected });
+    fn refuse(&mut self, location: &str, found: String, expected: String) {
+        self.bad.push(Refusal { location: location.into(), found, expected });
     }
 
     fn feature(&mut self, feature: &Feature, number: usize) {
-        let place = format!("feature {number}");
+        let location = format!("feature {number}");
         match &feature.geometry {
-            Some(geometry) => self.geometry(geometry, &place, feature.property("radius")),
+            Some(geometry) => self.geometry(geometry, &location, feature.property("radius")),
             None => self.count("features without geometry", 1),
         }
     }
@@ -86,60 +86,60 @@ impl Reader {
         *self.drawing.unused.entry(kind.to_owned()).or_default() += number;
     }
 
-    fn geometry(&mut self, geometry: &Geometry, place: &str, radius: Option<&serde_json::Value>) {
+    fn geometry(&mut self, geometry: &Geometry, location: &str, radius: Option<&serde_json::Value>) {
         match &geometry.value {
-            GeometryValue::Polygon { coordinates } => self.polygon(coordinates, place),
+            GeometryValue::Polygon { coordinates } => self.polygon(coordinates, location),
             GeometryValue::MultiPolygon { coordinates } => {
                 for polygon in coordinates {
-                    self.polygon(polygon, place);
+                    self.polygon(polygon, location);
                 }
             }
             GeometryValue::GeometryCollection { geometries } => {
                 for one in geometries {
-                    self.geometry(one, place, radius);
+                    self.geometry(one, location, radius);
                 }
             }
-            GeometryValue::Point { coordinates } => self.points(std::slice::from_ref(coordinates), place, radius),
-            GeometryValue::MultiPoint { coordinates } => self.points(coordinates, place, radius),
+            GeometryValue::Point { coordinates } => self.points(std::slice::from_ref(coordinates), location, radius),
+            GeometryValue::MultiPoint { coordinates } => self.points(coordinates, location, radius),
             GeometryValue::LineString { .. } => self.count("lines", 1),
             GeometryValue::MultiLineString { coordinates } => self.count("lines", coordinates.len()),
         }
     }
 
-    fn points(&mut self, points: &[Position], place: &str, radius: Option<&serde_json::Value>) {
+    fn points(&mut self, points: &[Position], location: &str, radius: Option<&serde_json::Value>) {
         let Some(value) = radius else { return self.count("points", points.len()) };
         let Some(radius) = value.as_f64().filter(|radius| radius.is_finite() && *radius > 0.0) else {
-            return self.refuse(place, format!("the radius {value}"), "a radius above 0".into());
+            return self.refuse(location, format!("the radius {value}"), "a radius above 0".into());
         };
         for point in points {
             match xy(point) {
                 Some([x, y]) => {
                     let outline = Outline::Disc { center: Vec2::new(x, y), radius };
-                    self.drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place.into() });
+                    self.drawing.entities.push(Entity { outline, paint: Paint::Filled, location: location.into() });
                 }
-                None => self.refuse(place, "a point without x and y".into(), "[x, y]".into()),
+                None => self.refuse(location, "a point without x and y".into(), "[x, y]".into()),
             }
         }
     }
 
-    fn polygon(&mut self, coordinates: &[Vec<Position>], place: &str) {
+    fn polygon(&mut self, coordinates: &[Vec<Position>], location: &str) {
         let mut found = Vec::new();
         for (k, ring) in coordinates.iter().enumerate() {
             let points: Option<Vec<[f64; 2]>> = ring.iter().map(xy).collect();
             let Some(points) = points else {
-                self.refuse(place, format!("ring {k}: a point without x and y"), "points [x, y]".into());
+                self.refuse(location, format!("ring {k}: a point without x and y"), "points [x, y]".into());
                 continue;
             };
             match rings::of_closed_line(&points) {
                 Ok(ring) => found.push(ring),
-                Err(refused) => self.refuse(place, format!("ring {k}: {}", refused.found), refused.expected),
+                Err(refused) => self.refuse(location, format!("ring {k}: {}", refused.found), refused.expected),
             }
         }
         if coordinates.is_empty() {
             self.count("empty geometries", 1);
         } else if !found.is_empty() {
             let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
-            self.drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place.into() });
+            self.drawing.entities.push(Entity { outline, paint: Paint::Filled, location: location.into() });
         }
     }
 }
@@ -164,7 +164,7 @@ mod tests {
                 {"type": "Point", "coordinates": [1, 1]}, {"type": "LineString", "coordinates": [[1, 1], [2, 2]]}]}}]}"#;
         let drawing = read(text).unwrap();
         assert_eq!(drawing.entities[0].outline, Outline::Disc { center: Vec2::new(1.0, 5.0), radius: 2.0 });
-        assert_eq!(drawing.entities[1].place, "feature 2");
+        assert_eq!(drawing.entities[1].location, "feature 2");
         assert_eq!((drawing.unused["points"], drawing.unused["lines"]), (1, 1));
     }
 
@@ -177,8 +177,8 @@ mod tests {
         assert_eq!(drawing.unit.unwrap().meters, 1e-3);
         assert_eq!(drawing.frame.unwrap().max, Vec2::new(3.0, 4.0));
         assert!(of("").unwrap().unit.is_none());
-        assert_eq!(of(r#""unit": "ell","#).unwrap_err()[0].place, "member `unit`");
-        assert_eq!(of(r#""domain": [1],"#).unwrap_err()[0].place, "member `domain`");
+        assert_eq!(of(r#""unit": "ell","#).unwrap_err()[0].location, "member `unit`");
+        assert_eq!(of(r#""domain": [1],"#).unwrap_err()[0].location, "member `domain`");
     }
 
     #[test]
@@ -188,7 +188,7 @@ mod tests {
                 .unwrap_err()
         };
         let ring = of(r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1]]]}"#);
-        assert!(ring[0].place == "feature 1" && ring[0].expected.contains("first point"), "{}", ring[0]);
+        assert!(ring[0].location == "feature 1" && ring[0].expected.contains("first point"), "{}", ring[0]);
         assert!(of(r#"{"type": "Point", "coordinates": [1, 2]}"#)[0].found.contains("-1"));
         assert!(read("{}").is_err() && read("[1, 2").is_err());
         assert!(read(&format!("{}1", "[".repeat(100_000))).is_err(), "a deep file must not exhaust the stack");

@@ -151,7 +151,7 @@ fn unit_of(names: &[Option<&str>]) -> Result<Option<Unit>, String> {
     let found: Vec<Option<Unit>> = names.iter().map(|name| name.and_then(unit_by_name)).collect();
     match &found[..] {
         [Some(first), rest @ ..] if rest.iter().all(|unit| unit.as_ref() == Some(first)) => Ok(Some(first.clone())),
-        _ => Err(format!("one unit of length behind all three names, or the key `unit`: {}", units::way_out())),
+        _ => Err(format!("one unit of length behind all three names, or the key `unit`: {}", units::known_units())),
     }
 }
 

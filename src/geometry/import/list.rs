@@ -7,7 +7,7 @@
 use crate::geometry::import::drawing::{Drawing, Entity, Outline, Paint, Refusal};
 use crate::geometry::import::header::{Header, cells};
 use crate::geometry::import::options::Options;
-use crate::geometry::import::text::{Lines, place, words};
+use crate::geometry::import::text::{Lines, at_line, words};
 use crate::math::Vec2;
 
 const EXPECTED: &str = "three numbers `x y r`, the radius above 0, separated by spaces, tabs, commas or semicolons";
@@ -38,12 +38,12 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
         }
         let columns = Columns::of(data, options, header.as_ref());
         match columns.disc(options.diameters.unwrap_or(false)) {
-            Some(outline) => drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place(line) }),
+            Some(outline) => drawing.entities.push(Entity { outline, paint: Paint::Filled, location: at_line(line) }),
             None => lines.refuse(line, row.trim(), expected(options)),
         }
     }
     if lines.bad.is_empty() && drawing.entities.is_empty() {
-        lines.bad.push(Refusal { place: place(1), found: "no disc at all".to_owned(), expected: EXPECTED.to_owned() });
+        lines.bad.push(Refusal { location: at_line(1), found: "no disc at all".into(), expected: EXPECTED.into() });
     }
     drawing.unit = header.and_then(|header| header.unit);
     drawing.frame = lines.domain;
@@ -125,7 +125,7 @@ mod tests {
     fn all_separators_a_header_and_comments_are_read() {
         let drawing = parse("x,y,r\n# a comment\n0 0 1 # first\n3,0,1\n\t0;3;\t1\n").unwrap();
         assert_eq!(drawing.entities.len(), 3);
-        assert_eq!(drawing.entities[0].place, "line 3");
+        assert_eq!(drawing.entities[0].location, "line 3");
     }
 
     #[test]
@@ -138,7 +138,7 @@ mod tests {
         };
         assert_eq!((radius(true), radius(false)), (1.0, 2.0));
         let bad = parse(text).unwrap_err();
-        assert_eq!(bad[0].place, "line 1");
+        assert_eq!(bad[0].location, "line 1");
         assert!(bad[0].expected.contains("diameters = true"), "{}", bad[0]);
     }
 
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn all_bad_lines_are_named_at_once_with_their_text() {
         let bad = parse("0 0 1\n1 2\n1 2 -3\n1 2 x\nnan 0 1\n").unwrap_err();
-        assert_eq!(bad.iter().map(|b| b.place.as_str()).collect::<Vec<_>>(), ["line 2", "line 3", "line 4", "line 5"]);
+        assert_eq!(bad.iter().map(|b| &b.location[..]).collect::<Vec<_>>(), ["line 2", "line 3", "line 4", "line 5"]);
         assert_eq!(bad[2].found, "`1 2 x`");
     }
 

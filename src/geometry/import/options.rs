@@ -36,7 +36,7 @@ pub struct Options {
     pub window: Option<[[f64; 2]; 2]>,
     /// Layers to read; all by default.
     pub layers: Option<Vec<String>>,
-    /// Distance within which ends of lines of a DXF drawing are joined, in units of the drawing.
+    /// Gap below which the ends of lines in a DXF drawing are joined, in units of the drawing.
     pub join_within: Option<f64>,
     /// Gray value that separates solid from pore, 0 (black) to 1 (white).
     pub threshold: Option<f64>,
@@ -98,7 +98,7 @@ impl Options {
         if drawing.is_in_meters {
             return Ok((1.0, "drawing unit m".into()));
         }
-        let message = format!("the unit of the drawing is not known: {} does not say it", format.name());
+        let message = format!("the unit of the drawing is not known: {} does not contain it", format.name());
         Err(Problem::new("unit", message, "add `unit = \"mm\"`, say, or `scale`, the length of the drawing unit in m"))
     }
 
@@ -108,7 +108,7 @@ impl Options {
         let mut misplaced = |key: &str, is_given: bool, belongs: &[Format], of: &str| {
             if is_given && !belongs.contains(&format) {
                 let help = format!("leave `{key}` out: it belongs to {of}");
-                found.push(Problem::new(key, format!("`{key}` says nothing of {}", format.name()), help));
+                found.push(Problem::new(key, format!("`{key}` does not apply to {}", format.name()), help));
             }
         };
         misplaced("layers", self.layers.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
@@ -124,14 +124,14 @@ impl Options {
         if format == Format::Toml {
             for (key, is_given) in [("unit", self.unit.is_some()), ("scale", self.scale.is_some())] {
                 if is_given {
-                    let message = format!("`{key}` says nothing of a TOML shape file");
+                    let message = format!("`{key}` does not apply to a TOML shape file");
                     found.push(Problem::new(key, message, "shape files in TOML are in m"));
                 }
             }
         }
         if format == Format::Mask {
             if let Some(key) = self.unit.as_ref().map(|_| "unit").or(self.scale.map(|_| "scale")) {
-                found.push(Problem::new(key, format!("`{key}` says nothing of a mask"), "give `pixel-size` in m"));
+                found.push(Problem::new(key, format!("`{key}` does not apply to a mask"), "give `pixel-size` in m"));
             }
             if self.pixel_size.is_none() {
                 let message = "the side of a pixel is not known: an image has no unit";
@@ -160,7 +160,7 @@ impl Options {
                 refuse("scale", "`unit` and `scale` are both given".into(), "keep one of them");
             }
             if units::by_name(name).is_none() {
-                refuse("unit", format!("there is no unit `{name}`"), &units::way_out());
+                refuse("unit", format!("there is no unit `{name}`"), &units::known_units());
             }
         }
         if let Some([min, max]) = self.window {

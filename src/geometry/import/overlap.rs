@@ -56,9 +56,9 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
                 continue;
             };
             united.push(format!("{} and {}", rings[group[0]].1, rings[group[1]].1));
-            let place = rings[group[0]].1.clone();
+            let location = rings[group[0]].1.clone();
             group.iter().for_each(|&i| changed[i] = Some(Vec::new()));
-            changed[group[0]] = Some(placed(all, &place));
+            changed[group[0]] = Some(placed(all, &location));
         }
         for [small, large] in cut {
             if changed[small].is_some() || changed[large].is_some() {
@@ -75,17 +75,17 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         let with = rings.into_iter().zip(changed);
         rings = with.flat_map(|(ring, new)| new.unwrap_or_else(|| vec![ring])).collect();
     }
-    for (places, text) in [
+    for (locations, text) in [
         (united, "outlines that overlap are united"),
         (
             holes,
             "outlines that overshoot the outline around most of their area are holes in it; to unite them, draw them as one",
         ),
     ] {
-        if !places.is_empty() {
-            let more = if places.len() > NAMED { ", ..." } else { "" };
-            let named = places.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
-            notes.add(format!("{} {text}: {named}{more}.", places.len()));
+        if !locations.is_empty() {
+            let more = if locations.len() > NAMED { ", ..." } else { "" };
+            let named = locations.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
+            notes.add(format!("{} {text}: {named}{more}.", locations.len()));
         }
     }
     rings
@@ -125,7 +125,7 @@ fn groups(pairs: &[[usize; 2]], count: usize) -> Vec<Vec<usize>> {
 }
 
 /// All rings of regions, with holes as separate rings.
-fn placed(regions: Vec<Region>, place: &str) -> Vec<Placed> {
+fn placed(regions: Vec<Region>, location: &str) -> Vec<Placed> {
     let rings = regions.into_iter().flat_map(|(outer, holes)| std::iter::once(outer).chain(holes));
-    rings.map(|ring| (ring, place.to_owned())).collect()
+    rings.map(|ring| (ring, location.to_owned())).collect()
 }

@@ -20,7 +20,7 @@ pub(crate) struct Painted {
     /// Its fill.
     pub(crate) paint: Paint,
     /// Its source location.
-    pub(crate) place: String,
+    pub(crate) location: String,
 }
 
 /// The remaining solid, each region with the source location of its shape.
@@ -30,7 +30,7 @@ pub(crate) fn solids(mut all: Vec<Painted>, notes: &mut Notes, refusals: &mut Ve
         cut(&mut all, notes, refusals);
     }
     let each = all.into_iter().filter(|one| one.paint != Paint::White);
-    each.flat_map(|one| one.regions.into_iter().map(move |region| (region, one.place.clone()))).collect()
+    each.flat_map(|one| one.regions.into_iter().map(move |region| (region, one.location.clone()))).collect()
 }
 
 fn bounds(one: &Painted) -> Bounds {
@@ -66,9 +66,9 @@ fn cut(all: &mut [Painted], notes: &mut Notes, refusals: &mut Vec<Refusal>) {
                     covers += 1;
                 }
                 Err(()) => {
-                    let found = format!("an outline that touches that of {} in a point", all[i].place);
+                    let found = format!("an outline that touches that of {} in a point", all[i].location);
                     let expected = "outlines that cross or keep apart: move one of them a little";
-                    refusals.push(Refusal::new(all[k].place.clone(), found, expected));
+                    refusals.push(Refusal::new(all[k].location.clone(), found, expected));
                 }
             }
         }
@@ -90,7 +90,7 @@ fn cut(all: &mut [Painted], notes: &mut Notes, refusals: &mut Vec<Refusal>) {
     for (number, text) in [
         (white, "white shapes are pore where they cover what is painted before them"),
         (holes, "outlines without fill on larger filled shapes are pore"),
-        (frames, "outlines without fill around filled shapes are no solid"),
+        (frames, "outlines without fill around filled shapes are not solid"),
         (shapes, "closed outlines without fill are taken for shapes"),
     ] {
         if number > 0 {

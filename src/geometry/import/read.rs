@@ -32,7 +32,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
 }
 
 fn one(found: &str, expected: &str) -> Vec<Refusal> {
-    vec![Refusal { place: "file".into(), found: found.into(), expected: expected.into() }]
+    vec![Refusal { location: "file".into(), found: found.into(), expected: expected.into() }]
 }
 
 /// The UTF-8 text of a file, without byte order mark.
@@ -40,10 +40,10 @@ fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
         Err(_) => {
-            let place = file::not_text(bytes).unwrap_or_default();
+            let location = file::not_text(bytes).unwrap_or_default();
             Err(vec![Refusal::new(
-                place,
-                "no letter of UTF-8",
+                location,
+                "invalid UTF-8",
                 "text in UTF-8: save the file as such; is it the right file?",
             )])
         }

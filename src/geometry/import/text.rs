@@ -33,12 +33,12 @@ impl Lines {
 
     /// Records a line that cannot be read.
     pub(crate) fn refuse(&mut self, line: usize, text: &str, expected: String) {
-        self.bad.push(Refusal { place: place(line), found: quoted(text), expected });
+        self.bad.push(Refusal { location: at_line(line), found: quoted(text), expected });
     }
 }
 
 /// The source location of a line.
-pub(crate) fn place(line: usize) -> String {
+pub(crate) fn at_line(line: usize) -> String {
     format!("line {line}")
 }
 

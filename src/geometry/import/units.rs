@@ -31,6 +31,6 @@ pub(crate) fn by_name(name: &str) -> Option<Unit> {
 }
 
 /// The remedy for an unknown name.
-pub(crate) fn way_out() -> String {
+pub(crate) fn known_units() -> String {
     "use m, cm, mm, um, nm, in, mil, ft, pt or px, or `scale`, the length of the drawing unit in m".into()
 }

@@ -9,7 +9,7 @@ use wkt::Wkt;
 
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
 use crate::geometry::import::rings;
-use crate::geometry::import::text::{Lines, place};
+use crate::geometry::import::text::{Lines, at_line};
 
 const EXPECTED: &str =
     "POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION of polygons, such as `POLYGON ((0 0, 1 0, 0 1, 0 0))`";
@@ -39,7 +39,7 @@ pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
     }
     open.end(&mut drawing, &mut lines);
     if lines.bad.is_empty() && drawing.entities.is_empty() {
-        lines.bad.push(Refusal { place: place(1), found: "no polygon at all".into(), expected: EXPECTED.into() });
+        lines.bad.push(Refusal { location: at_line(1), found: "no polygon at all".into(), expected: EXPECTED.into() });
     }
     drawing.frame = lines.domain;
     if lines.bad.is_empty() { Ok(drawing) } else { Err(lines.bad) }
@@ -126,7 +126,7 @@ fn add(polygon: &wkt::types::Polygon<f64>, line: usize, drawing: &mut Drawing, l
         match rings::of_closed_line(&points) {
             Ok(ring) => found.push(ring),
             Err(refused) => lines.bad.push(Refusal {
-                place: place(line),
+                location: at_line(line),
                 found: format!("ring {k}: {}", refused.found),
                 expected: refused.expected,
             }),
@@ -136,7 +136,7 @@ fn add(polygon: &wkt::types::Polygon<f64>, line: usize, drawing: &mut Drawing, l
         *drawing.unused.entry("empty geometries".to_owned()).or_default() += 1;
     } else if !found.is_empty() {
         let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
-        drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place(line) });
+        drawing.entities.push(Entity { outline, paint: Paint::Filled, location: at_line(line) });
     }
 }
 
@@ -150,7 +150,7 @@ mod tests {
                     MULTIPOLYGON (((3 3, 4 3, 3 4, 3 3)), ((6 6, 7 6, 6 7, 6 6))))\nPOLYGON ((0 5, 1 5, 0 6, 0 5))\n";
         let drawing = read(text).unwrap();
         assert_eq!(drawing.entities.len(), 4);
-        assert_eq!(drawing.entities[3].place, "line 6");
+        assert_eq!(drawing.entities[3].location, "line 6");
         assert_eq!(drawing.frame.unwrap().max.x, 9.0);
         assert_eq!(drawing.unused["points"], 1);
     }
@@ -168,14 +168,14 @@ mod tests {
             "MULTIPOLYGON (((0 0, 1 0, 0 1, 0 0))), ((3 3, 4 3, 3 4, 3 3)))",
             "POLYGON ((0 0, 1 0, 0 1, 0 0)) and more",
         ] {
-            assert_eq!(read(bad).unwrap_err()[0].place, "line 1", "{bad}");
+            assert_eq!(read(bad).unwrap_err()[0].location, "line 1", "{bad}");
         }
     }
 
     #[test]
     fn open_rings_and_files_without_polygons_are_refused_with_their_line() {
         let bad = read("\nPOLYGON ((0 0, 1 0, 0 1))\nPOLYGON ((0 0, 1 0, nan 1, 0 0))\nPOLYGON 3\n").unwrap_err();
-        assert_eq!(bad.iter().map(|b| b.place.as_str()).collect::<Vec<_>>(), ["line 2", "line 3", "line 4"]);
+        assert_eq!(bad.iter().map(|b| b.location.as_str()).collect::<Vec<_>>(), ["line 2", "line 3", "line 4"]);
         assert!(bad[0].expected.contains("first point"), "{}", bad[0]);
         assert_eq!((bad[1].found.as_str(), bad[1].expected.as_str()), ("`nan`", "finite numbers as coordinates"));
         assert_eq!(read("POINT (1 2)").unwrap_err()[0].found, "no polygon at all");

@@ -10,8 +10,8 @@ use crate::geometry::spec::{Arrangement, Array, Disc};
 pub fn array(spec: &Array) -> Result<Vec<Disc>, PackError> {
     let size = size_of(spec.region)?;
     let (radius, gap) = (spec.radius, spec.gap);
-    PackError::unless_size("radius", radius)?;
-    PackError::unless_size("gap", gap)?;
+    PackError::require_size("radius", radius)?;
+    PackError::require_size("gap", gap)?;
     let pitch = 2.0 * radius + gap;
     let row = if spec.arrangement == Arrangement::Square { pitch } else { 0.5 * 3.0_f64.sqrt() * pitch };
     let shift = if spec.arrangement == Arrangement::Square { 0.0 } else { 0.5 * pitch };
@@ -22,13 +22,13 @@ pub fn array(spec: &Array) -> Result<Vec<Disc>, PackError> {
     let rows = fits(size[1] - 2.0 * radius, row);
     let shift = if rows > 1.0 { shift } else { 0.0 };
     let columns = fits(size[0] - 2.0 * radius - shift, pitch);
-    PackError::unless(
+    PackError::require(
         rows * columns >= 1.0,
         "region",
         format!("{:e} x {:e} m holds no disc of radius {radius:e} m", size[0], size[1]),
         "enlarge the region or make the discs smaller",
     )?;
-    PackError::unless(
+    PackError::require(
         rows * columns <= MOST_DISCS,
         "radius",
         format!("the region would hold {:.1e} discs, expected at most {MOST_DISCS:e}", rows * columns),

@@ -22,8 +22,8 @@ impl Cells {
 
     fn index(&self, x: [f64; 2]) -> [usize; 2] {
         [0, 1].map(|k| {
-            let place = (x[k] - self.min[k]) / self.size[k] * self.counts[k] as f64;
-            (place.max(0.0) as usize).min(self.counts[k] - 1)
+            let scaled = (x[k] - self.min[k]) / self.size[k] * self.counts[k] as f64;
+            (scaled.max(0.0) as usize).min(self.counts[k] - 1)
         })
     }
 

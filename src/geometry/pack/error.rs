@@ -17,14 +17,19 @@ impl PackError {
         Self { key, message: message.into(), help: help.into() }
     }
 
-    pub(crate) fn unless(is_good: bool, key: &'static str, message: impl Into<String>, help: &str) -> Result<(), Self> {
+    pub(crate) fn require(
+        is_good: bool,
+        key: &'static str,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Result<(), Self> {
         if is_good { Ok(()) } else { Err(Self::new(key, message, help)) }
     }
 
     /// Rejects an invalid radius or gap.
-    pub(crate) fn unless_size(key: &'static str, size: f64) -> Result<(), Self> {
+    pub(crate) fn require_size(key: &'static str, size: f64) -> Result<(), Self> {
         let help = if key == "gap" { "a length above 0, so that fluid can pass" } else { "a length above 0" };
-        Self::unless(size > 0.0 && size.is_finite(), key, format!("{size:e} m is no {key}"), help)
+        Self::require(size > 0.0 && size.is_finite(), key, format!("{size:e} m is not a valid {key}"), help)
     }
 }
 
@@ -35,10 +40,10 @@ pub(crate) const MOST_DISCS: f64 = 2e6;
 pub(crate) fn size_of(region: [[f64; 2]; 2]) -> Result<[f64; 2], PackError> {
     let size = [region[1][0] - region[0][0], region[1][1] - region[0][1]];
     let is_good = region.as_flattened().iter().all(|v| v.is_finite()) && size.iter().all(|&s| s > 0.0);
-    PackError::unless(
+    PackError::require(
         is_good,
         "region",
-        format!("{region:?} is no rectangle"),
+        format!("{region:?} is not a rectangle"),
         "give [[xmin, ymin], [xmax, ymax]] in m",
     )?;
     Ok(size)

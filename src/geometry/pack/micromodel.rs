@@ -31,14 +31,14 @@ pub fn micromodel(model: &Micromodel) -> Result<(GeometrySpec, Vec<Disc>), PackE
         ("channel-length", model.channel_length),
         ("wall", model.wall),
     ] {
-        PackError::unless(
+        PackError::require(
             length > 0.0 && length.is_finite(),
             key,
-            format!("{length:e} m is no length"),
+            format!("{length:e} m is not a length"),
             "a length above 0",
         )?;
     }
-    PackError::unless(
+    PackError::require(
         model.channel_width <= y1 - y0,
         "channel-width",
         format!("{:e} m is more than the height of the pack, {:e} m", model.channel_width, y1 - y0),

@@ -64,7 +64,7 @@ pub fn random_pack(spec: &RandomPack) -> Result<Vec<Disc>, PackError> {
     let largest = radii[0];
     for k in 0..2 {
         let least = if periodic[k] { 4.0 * largest + 2.0 * spec.gap } else { 2.0 * largest + 2.0 * spec.gap };
-        PackError::unless(
+        PackError::require(
             size[k] >= least,
             "region",
             format!("{:e} m of the region hold no disc of radius {largest:e} m with its gaps", size[k]),
@@ -92,28 +92,28 @@ pub fn random_pack(spec: &RandomPack) -> Result<Vec<Disc>, PackError> {
 
 fn check(spec: &RandomPack, size: [f64; 2]) -> Result<(), PackError> {
     let RandomPack { porosity, radius, radius_deviation, gap, .. } = *spec;
-    PackError::unless(
+    PackError::require(
         porosity > 0.0 && porosity < 1.0,
         "porosity",
-        format!("{porosity} is no porosity"),
+        format!("{porosity} is not a porosity"),
         "a number above 0 and below 1",
     )?;
-    PackError::unless_size("radius", radius)?;
-    PackError::unless(
+    PackError::require_size("radius", radius)?;
+    PackError::require(
         (0.0..=WIDEST).contains(&radius_deviation),
         "radius-deviation",
         format!("{radius_deviation} is out of range"),
         "standard deviation over mean, 0 to 0.35",
     )?;
-    PackError::unless_size("gap", gap)?;
+    PackError::require_size("gap", gap)?;
     let count = (1.0 - porosity) * size[0] * size[1] / (std::f64::consts::PI * radius * radius);
-    PackError::unless(
+    PackError::require(
         count <= MOST_DISCS,
         "radius",
         format!("{count:.1e} discs would be needed, expected at most {MOST_DISCS:e}"),
         "are all lengths in m?",
     )?;
-    PackError::unless(
+    PackError::require(
         count >= 0.5,
         "porosity",
         format!("the solid is {count:.2} of one disc"),
@@ -140,10 +140,10 @@ fn radii(spec: &RandomPack, size: [f64; 2], uniform: &mut Uniform) -> Result<Vec
     radii.sort_by(|a, b| b.total_cmp(a));
     // With few discs the common scale factor may be far from one.
     const SAME: f64 = 0.1;
-    PackError::unless(
+    PackError::require(
         (scale - 1.0).abs() <= SAME,
         "porosity",
-        format!("{} discs meet it only with radii {:.0} % of those asked for", radii.len(), 100.0 * scale),
+        format!("{} discs meet it only with radii {:.0} % of those requested", radii.len(), 100.0 * scale),
         "enlarge the region or make the discs smaller, so that there are more of them",
     )?;
     Ok(radii)
@@ -192,7 +192,7 @@ impl Placing<'_> {
         let mut centers: Vec<[f64; 2]> = Vec::with_capacity(radii.len());
         for (i, &radius) in radii.iter().enumerate() {
             let ranges = [0, 1].map(|axis| self.range(axis, radius));
-            let mut place = || ranges.map(|[from, to]| from + (to - from) * uniform.next());
+            let mut draw = || ranges.map(|[from, to]| from + (to - from) * uniform.next());
             let is_free = |x: [f64; 2]| {
                 let mut free = true;
                 cells.near(x, |j| {
@@ -202,7 +202,7 @@ impl Placing<'_> {
                 });
                 free
             };
-            let x = (0..TRIES).map(|_| place()).find(|&x| is_free(x))?;
+            let x = (0..TRIES).map(|_| draw()).find(|&x| is_free(x))?;
             cells.add(i, x);
             centers.push(x);
         }

@@ -92,11 +92,11 @@ impl Meniscus {
 
     /// Whether it touches a curve elsewhere than at one of its own contacts behind the throat.
     pub(super) fn touches_ahead(&self, curve: &Curve) -> bool {
-        meetings(&self.curve(), curve).into_iter().flatten().any(|x| !self.stands_behind_at(x))
+        meetings(&self.curve(), curve).into_iter().flatten().any(|x| !self.lies_behind_at(x))
     }
 
     /// Whether a contact behind the throat is at a point. Where solids share a corner, a wall ahead starts there too, on their other side.
-    pub(super) fn stands_behind_at(&self, x: Vec2) -> bool {
+    pub(super) fn lies_behind_at(&self, x: Vec2) -> bool {
         /// Fraction of the chord within which points coincide; where an arc meets a wall at 0 degrees only half of the digits are accurate.
         const SAME: f64 = 1e-6;
         let is_at = |contact: &Contact| contact.advance < 0.0 && (contact.point - x).norm() <= SAME * self.chord();
@@ -111,11 +111,11 @@ impl Meniscus {
             return meetings(&self.curve(), &other.curve());
         };
         let [r1, r2] = [(self.left.point - one).norm(), (other.left.point - two).norm()];
-        circle_circle(one, r1, two, r2).map(|x| x.filter(|x| self.holds(*x) && other.holds(*x)))
+        circle_circle(one, r1, two, r2).map(|x| x.filter(|x| self.contains(*x) && other.contains(*x)))
     }
 
     /// Whether a point of its circle (or line) lies on the arc between both contacts.
-    pub(super) fn holds(&self, x: Vec2) -> bool {
+    pub(super) fn contains(&self, x: Vec2) -> bool {
         let d = self.right.point - self.left.point;
         let from = x - self.left.point;
         // The far part of the circle of a nearly straight arc is out of range.

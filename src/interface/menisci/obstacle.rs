@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::circle::{Circle, Condition, circles, meets_round, meets_straight};
-use crate::interface::menisci::path::{Leg, Place, Walls, meets};
+use crate::interface::menisci::path::{Contacts, Leg, Walls, meets};
 use crate::interface::menisci::wall::{Shape, wrapped};
 use crate::math::{Bounds, Vec2};
 
@@ -29,13 +29,13 @@ impl Obstacle {
 
     /// The curvature at first contact along a leg.
     pub(crate) fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
-        self.first_place(walls, leg).map(|(_, k)| k)
+        self.first_contacts(walls, leg).map(|(_, k)| k)
     }
 
     /// The position of the meniscus at first contact along a leg, and its curvature.
-    pub(crate) fn first_place(&self, walls: &Walls, leg: &Leg) -> Option<(Place, f64)> {
+    pub(crate) fn first_contacts(&self, walls: &Walls, leg: &Leg) -> Option<(Contacts, f64)> {
         let boxed = swept_box(walls, leg);
-        let mut first: Option<(f64, Place, f64)> = None;
+        let mut first: Option<(f64, Contacts, f64)> = None;
         for (curve, bounds) in &self.curves {
             if (0..2).any(|i| bounds.max[i] < boxed.min[i] || boxed.max[i] < bounds.min[i]) {
                 continue;
@@ -48,22 +48,22 @@ impl Obstacle {
             let conditions = [Some(touches(curve)), ends[0], ends[1]];
             for (which, condition) in conditions.into_iter().enumerate() {
                 let Some(condition) = condition else { continue };
-                for (place, circle) in candidates(walls, leg, condition) {
-                    let meniscus = walls.meniscus(&walls.station(place));
+                for (contacts, circle) in candidates(walls, leg, condition) {
+                    let meniscus = walls.meniscus(&walls.station(contacts));
                     let point = match which {
                         0 => touching_point(curve, &circle),
                         end => Some(curve.point(end as f64 - 1.0)),
                     };
-                    if point.is_some_and(|point| meniscus.holds(point) && !meniscus.stands_behind_at(point)) {
-                        let order = order_on(leg, &place);
+                    if point.is_some_and(|point| meniscus.contains(point) && !meniscus.lies_behind_at(point)) {
+                        let order = order_on(leg, &contacts);
                         if first.is_none_or(|(earliest, ..)| order < earliest) {
-                            first = Some((order, place, circle.k));
+                            first = Some((order, contacts, circle.k));
                         }
                     }
                 }
             }
         }
-        first.map(|(_, place, k)| (place, k))
+        first.map(|(_, contacts, k)| (contacts, k))
     }
 }
 
@@ -76,25 +76,25 @@ fn swept_box(walls: &Walls, leg: &Leg) -> Bounds {
 }
 
 /// The distance of a position along a leg, for comparison.
-fn order_on(leg: &Leg, place: &Place) -> f64 {
+fn order_on(leg: &Leg, contacts: &Contacts) -> f64 {
     let share = |x: f64, a: f64, b: f64| if a == b { 0.0 } else { (x - a) / (b - a) };
-    let (start, end) = (leg.start.place, leg.end.place);
-    share(place.left.1, start.left.1, end.left.1).max(share(place.right.1, start.right.1, end.right.1))
+    let (start, end) = (leg.start.contacts, leg.end.contacts);
+    share(contacts.left.1, start.left.1, end.left.1).max(share(contacts.right.1, start.right.1, end.right.1))
 }
 
 /// The menisci of a leg that satisfy one more condition.
-fn candidates(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, Circle)> {
-    let Place { left: (i, _), right: (j, _) } = leg.end.place;
+fn candidates(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Contacts, Circle)> {
+    let Contacts { left: (i, _), right: (j, _) } = leg.end.contacts;
     let (l, r) = (&walls.left[i], &walls.right[j]);
     if matches!((l.shape, r.shape), (Shape::Straight { .. }, Shape::Straight { .. })) {
         return between_lines(walls, leg, condition);
     }
     let found = circles([meets(l), meets(r), condition]).into_iter().flatten();
-    found.filter_map(|circle| Some((walls.place_on(leg, &circle)?, circle))).collect()
+    found.filter_map(|circle| Some((walls.contacts_on(leg, &circle)?, circle))).collect()
 }
 
 /// Between straight walls β is constant and the chord is linear in the fraction along the leg: the condition times the chord is quadratic in it.
-fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, Circle)> {
+fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Contacts, Circle)> {
     let value = |share: f64| {
         let station = walls.station(walls.share(leg, share));
         let circle = walls.circle(&station);
@@ -113,7 +113,7 @@ fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, 
     shares
         .map(|share| {
             let station = walls.station(walls.share(leg, share.clamp(0.0, 1.0)));
-            (station.place, walls.circle(&station))
+            (station.contacts, walls.circle(&station))
         })
         .collect()
 }

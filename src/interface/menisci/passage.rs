@@ -10,7 +10,7 @@ use crate::geometry::curve::{Curve, cross};
 use crate::interface::menisci::circle::{Circle, circles, has_curvature};
 use crate::interface::menisci::meniscus::Meniscus;
 use crate::interface::menisci::obstacle::Obstacle;
-use crate::interface::menisci::path::{Leg, Place, Station, Walls, held, meets};
+use crate::interface::menisci::path::{Contacts, Leg, Station, Walls, held, meets};
 use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, pieces};
 use crate::math::Vec2;
 
@@ -111,8 +111,8 @@ impl Passage {
     pub(crate) fn reach(&self, line: &Curve) -> Option<Meniscus> {
         let obstacle = Obstacle::new(&[*line], self.origin, self.scale);
         let mut legs = self.path.iter().chain(&self.beyond);
-        if let Some((place, k)) = legs.find_map(|leg| obstacle.first_place(&self.walls, leg)) {
-            return Some(self.meniscus(&Station { curvature: k, ..self.walls.station(place) }));
+        if let Some((contacts, k)) = legs.find_map(|leg| obstacle.first_contacts(&self.walls, leg)) {
+            return Some(self.meniscus(&Station { curvature: k, ..self.walls.station(contacts) }));
         }
         let last = self.beyond.last().or(self.path.last()).map(|leg| leg.end).or(self.highest)?;
         let last = self.meniscus(&last);
@@ -166,35 +166,35 @@ impl Passage {
 
 impl Walls {
     pub(super) fn meniscus(&self, station: &Station) -> Meniscus {
-        let Place { left: (i, s), right: (j, t) } = station.place;
+        let Contacts { left: (i, s), right: (j, t) } = station.contacts;
         let (left, right) = (contact(&self.left[i], s), contact(&self.right[j], t));
         Meniscus { curvature: station.curvature, left, right, bend: station.bend }
     }
 
     /// The meniscus of curvature `k` on a leg whose curvatures bracket k.
     fn on_leg(&self, leg: &Leg, k: f64) -> Station {
-        let Place { left: (i, _), right: (j, _) } = leg.end.place;
+        let Contacts { left: (i, _), right: (j, _) } = leg.end.contacts;
         let found = circles([meets(&self.left[i]), meets(&self.right[j]), has_curvature(k)]);
-        let place = found.into_iter().flatten().find_map(|circle| self.place_on(leg, &circle));
-        let station = self.station(place.unwrap_or_else(|| self.bisect(leg, k)));
+        let contacts = found.into_iter().flatten().find_map(|circle| self.contacts_on(leg, &circle));
+        let station = self.station(contacts.unwrap_or_else(|| self.bisect(leg, k)));
         Station { curvature: k, ..station }
     }
 
     /// The contacts of a circle if both lie on a leg.
-    pub(super) fn place_on(&self, leg: &Leg, circle: &Circle) -> Option<Place> {
-        let (start, end) = (leg.start.place, leg.end.place);
-        let place = self.contacts((end.left.0, end.right.0), circle)?;
+    pub(super) fn contacts_on(&self, leg: &Leg, circle: &Circle) -> Option<Contacts> {
+        let (start, end) = (leg.start.contacts, leg.end.contacts);
+        let contacts = self.contacts((end.left.0, end.right.0), circle)?;
         // Rounding; a double root has only half the digits.
         const SLACK: f64 = 1e-7;
         let inside = |x: f64, a: f64, b: f64| x > a.min(b) - SLACK && x < a.max(b) + SLACK;
-        let left = inside(place.left.1, start.left.1, end.left.1);
-        (left && inside(place.right.1, start.right.1, end.right.1)).then(|| Place {
-            left: (place.left.0, held(place.left.1, start.left.1, end.left.1)),
-            right: (place.right.0, held(place.right.1, start.right.1, end.right.1)),
+        let left = inside(contacts.left.1, start.left.1, end.left.1);
+        (left && inside(contacts.right.1, start.right.1, end.right.1)).then(|| Contacts {
+            left: (contacts.left.0, held(contacts.left.1, start.left.1, end.left.1)),
+            right: (contacts.right.0, held(contacts.right.1, start.right.1, end.right.1)),
         })
     }
 
-    fn bisect(&self, leg: &Leg, k: f64) -> Place {
+    fn bisect(&self, leg: &Leg, k: f64) -> Contacts {
         let (mut low, mut high) = (0.0, 1.0);
         // One halving per bit of the significand.
         for _ in 0..52 {

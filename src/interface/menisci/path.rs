@@ -14,7 +14,7 @@ use crate::interface::menisci::wall::{Piece, Shape, wrapped};
 
 /// A contact on each wall: the piece, and the parameter on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct Contacts {
     pub(crate) left: (usize, f64),
     pub(crate) right: (usize, f64),
 }
@@ -22,7 +22,7 @@ pub(super) struct Place {
 /// A meniscus of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Station {
-    pub(crate) place: Place,
+    pub(crate) contacts: Contacts,
     /// Angle β between chord and interface, above 0 where the meniscus bulges into the defending phase.
     pub(crate) bend: f64,
     pub(crate) curvature: f64,
@@ -63,19 +63,19 @@ enum Sense {
 }
 
 impl Walls {
-    pub(crate) fn station(&self, place: Place) -> Station {
-        let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
-        let d = r.point(place.right.1) - l.point(place.left.1);
+    pub(crate) fn station(&self, contacts: Contacts) -> Station {
+        let (l, r) = (&self.left[contacts.left.0], &self.right[contacts.right.0]);
+        let d = r.point(contacts.right.1) - l.point(contacts.left.1);
         let psi = d.y.atan2(d.x);
         // The mean of both sides, so that mirrored walls give the same number.
-        let one = wrapped(l.direction(place.left.1) - psi);
-        let other = one + wrapped(psi + PI - r.direction(place.right.1) - one);
+        let one = wrapped(l.direction(contacts.left.1) - psi);
+        let other = one + wrapped(psi + PI - r.direction(contacts.right.1) - one);
         let bend = 0.5 * (one + other);
-        Station { place, bend, curvature: 2.0 * bend.sin() / d.norm() }
+        Station { contacts, bend, curvature: 2.0 * bend.sin() / d.norm() }
     }
 
     pub(crate) fn circle(&self, station: &Station) -> Circle {
-        let Place { left: (i, s), right: (j, t) } = station.place;
+        let Contacts { left: (i, s), right: (j, t) } = station.contacts;
         let (l, r) = (&self.left[i], &self.right[j]);
         // The position of an edge is exact.
         let (piece, s) = if r.is_edge() && !l.is_edge() { (r, t) } else { (l, s) };
@@ -98,8 +98,8 @@ impl Walls {
         if m == 0 || n == 0 {
             return None;
         }
-        if let Some(place) = self.on_chord(chord) {
-            return Some(self.station(place));
+        if let Some(contacts) = self.on_chord(chord) {
+            return Some(self.station(contacts));
         }
         let end = |index: usize, len: usize| if index < len { (index, 0.0) } else { (len - 1, 1.0) };
         let answered = |on: &Piece, (piece, s): (&Piece, f64)| {
@@ -109,27 +109,27 @@ impl Walls {
         let of_left = outward(chord.0, m).find_map(|i| {
             let left = end(i, m);
             let known = (&self.left[left.0], left.1);
-            let found = |j: usize| answered(self.right.get(j)?, known).map(|t| Place { left, right: (j, t) });
+            let found = |j: usize| answered(self.right.get(j)?, known).map(|t| Contacts { left, right: (j, t) });
             outward(chord.1, n).find_map(found)
         });
         let of_right = || {
             outward(chord.1, n).find_map(|j| {
                 let right = end(j, n);
                 let known = (&self.right[right.0], right.1);
-                let found = |i: usize| answered(self.left.get(i)?, known).map(|s| Place { left: (i, s), right });
+                let found = |i: usize| answered(self.left.get(i)?, known).map(|s| Contacts { left: (i, s), right });
                 outward(chord.0, m).find_map(found)
             })
         };
-        let off_chord = |place: &Place| {
-            let (left, right) = (&self.left[place.left.0], &self.right[place.right.0]);
-            left.advance_at(place.left.1).abs() + right.advance_at(place.right.1).abs()
+        let off_chord = |contacts: &Contacts| {
+            let (left, right) = (&self.left[contacts.left.0], &self.right[contacts.right.0]);
+            left.advance_at(contacts.left.1).abs() + right.advance_at(contacts.right.1).abs()
         };
         let nearest = of_left.into_iter().chain(of_right()).min_by(|a, b| off_chord(a).total_cmp(&off_chord(b)));
-        nearest.map(|place| self.station(place))
+        nearest.map(|contacts| self.station(contacts))
     }
 
     /// The contacts at both ends of the chord, if the walls have a common bend there: at an edge a range of bends is admissible.
-    fn on_chord(&self, chord: (usize, usize)) -> Option<Place> {
+    fn on_chord(&self, chord: (usize, usize)) -> Option<Contacts> {
         let end = |index: usize, pieces: &[Piece]| if index < pieces.len() { (index, 0.0) } else { (index - 1, 1.0) };
         let (left, right) = (end(chord.0, &self.left), end(chord.1, &self.right));
         let (l, r) = (&self.left[left.0], &self.right[right.0]);
@@ -150,7 +150,7 @@ impl Walls {
         let bend = 0.5 * (low + high);
         let at = |piece: &Piece, s: f64, mu: f64| if piece.is_edge() { held(piece.parameter(mu), 0.0, 1.0) } else { s };
         let (s, t) = (at(l, left.1, psi + bend), at(r, right.1, psi + PI - bend));
-        Some(Place { left: (left.0, s), right: (right.0, t) })
+        Some(Contacts { left: (left.0, s), right: (right.0, t) })
     }
 
     fn follow(&self, start: Station, sense: Sense) -> Vec<Leg> {
@@ -164,7 +164,7 @@ impl Walls {
             if inner.len() == 2 && cell.is_beyond(&inner[0], &inner[1]) {
                 inner.swap(0, 1);
             }
-            let mut last = Station { place: cell.place, ..now };
+            let mut last = Station { contacts: cell.contacts, ..now };
             for station in inner.into_iter().chain([exit]) {
                 // Beyond half a turn the curvature of the arc would be infinite.
                 if (last.bend + self.change_of_bend(&last, &station)).abs() > PI {
@@ -199,50 +199,50 @@ impl Walls {
     }
 
     /// The position at a fraction of a leg, measured by the contact that moves farther on its piece.
-    pub(crate) fn share(&self, leg: &Leg, share: f64) -> Place {
-        let (start, end) = (leg.start.place, leg.end.place);
+    pub(crate) fn share(&self, leg: &Leg, share: f64) -> Contacts {
+        let (start, end) = (leg.start.contacts, leg.end.contacts);
         let (i, j) = (end.left.0, end.right.0);
         let (l, r) = (&self.left[i], &self.right[j]);
         let mix = |a: f64, b: f64| a + (b - a) * share;
         let (s, t) = (mix(start.left.1, end.left.1), mix(start.right.1, end.right.1));
         if (end.left.1 - start.left.1).abs() >= (end.right.1 - start.right.1).abs() {
             let t = r.answer(l.point(s), l.direction(s)).unwrap_or(t);
-            Place { left: (i, s), right: (j, held(t, start.right.1, end.right.1)) }
+            Contacts { left: (i, s), right: (j, held(t, start.right.1, end.right.1)) }
         } else {
             let s = l.answer(r.point(t), r.direction(t)).unwrap_or(s);
-            Place { left: (i, held(s, start.left.1, end.left.1)), right: (j, t) }
+            Contacts { left: (i, held(s, start.left.1, end.left.1)), right: (j, t) }
         }
     }
 
     /// β = (μ_l − μ_r + π)/2 up to a constant: its change within a pair of pieces.
     fn change_of_bend(&self, from: &Station, to: &Station) -> f64 {
-        let left = &self.left[to.place.left.0];
-        let right = &self.right[to.place.right.0];
+        let (from, to) = (from.contacts, to.contacts);
+        let (left, right) = (&self.left[to.left.0], &self.right[to.right.0]);
         let turn = |piece: &Piece, from: f64, to: f64| (to - from) * (piece.direction[1] - piece.direction[0]);
-        0.5 * (turn(left, from.place.left.1, to.place.left.1) - turn(right, from.place.right.1, to.place.right.1))
+        0.5 * (turn(left, from.left.1, to.left.1) - turn(right, from.right.1, to.right.1))
     }
 
     /// The pair of pieces that the path enters, and the signs of both contacts' motion there.
     fn cell_ahead(&self, now: &Station, sense: Sense) -> Option<Cell> {
-        let mut place = now.place;
+        let mut contacts = now.contacts;
         // At a corner of four pairs at most three changes are needed.
         for _ in 0..4 {
-            let signs = self.motion(place, sense);
-            let left = entered(place.left, signs.0, self.left.len())?;
-            let right = entered(place.right, signs.1, self.right.len())?;
-            if (left, right) == (place.left, place.right) {
-                return Some(Cell { place, signs });
+            let signs = self.motion(contacts, sense);
+            let left = entered(contacts.left, signs.0, self.left.len())?;
+            let right = entered(contacts.right, signs.1, self.right.len())?;
+            if (left, right) == (contacts.left, contacts.right) {
+                return Some(Cell { contacts, signs });
             }
-            place = Place { left, right };
+            contacts = Contacts { left, right };
         }
         None
     }
 
     /// The signs of both contacts' motion along the path: the level line of F = μ_l + μ_r − 2 ψ − π, with F > 0 on the side of its left contact.
-    fn motion(&self, place: Place, sense: Sense) -> (f64, f64) {
-        let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
-        let d = r.point(place.right.1) - l.point(place.left.1);
-        let ((p, turn_l), (q, turn_r)) = (l.rates(place.left.1), r.rates(place.right.1));
+    fn motion(&self, contacts: Contacts, sense: Sense) -> (f64, f64) {
+        let (l, r) = (&self.left[contacts.left.0], &self.right[contacts.right.0]);
+        let d = r.point(contacts.right.1) - l.point(contacts.left.1);
+        let ((p, turn_l), (q, turn_r)) = (l.rates(contacts.left.1), r.rates(contacts.right.1));
         let square = d.norm_squared();
         let left = turn_l + 2.0 * cross(d, p) / square;
         let right = turn_r - 2.0 * cross(d, q) / square;
@@ -254,7 +254,7 @@ impl Walls {
 
     /// Where the path leaves a pair of pieces.
     fn far_side(&self, cell: &Cell) -> Option<Station> {
-        let Place { left: (i, s), right: (j, t) } = cell.place;
+        let Contacts { left: (i, s), right: (j, t) } = cell.contacts;
         let (l, r) = (&self.left[i], &self.right[j]);
         let far = |sign: f64| if sign > 0.0 { 1.0 } else { 0.0 };
         let (s_far, t_far) = (far(cell.signs.0), far(cell.signs.1));
@@ -274,25 +274,25 @@ impl Walls {
         } else {
             return None;
         };
-        Some(self.station(Place { left: (i, s), right: (j, t) }))
+        Some(self.station(Contacts { left: (i, s), right: (j, t) }))
     }
 
     /// Positions of the extremal curvatures strictly between entry and exit of a pair of pieces.
     fn extremes(&self, cell: &Cell, exit: &Station) -> [Option<Station>; 2] {
-        let Place { left: (i, s0), right: (j, t0) } = cell.place;
-        let ((_, s1), (_, t1)) = (exit.place.left, exit.place.right);
+        let Contacts { left: (i, s0), right: (j, t0) } = cell.contacts;
+        let ((_, s1), (_, t1)) = (exit.contacts.left, exit.contacts.right);
         extreme_circles(&self.left[i], &self.right[j]).map(|circle| {
-            let place = self.contacts((i, j), &circle?)?;
-            let (s, t) = (place.left.1, place.right.1);
+            let contacts = self.contacts((i, j), &circle?)?;
+            let (s, t) = (contacts.left.1, contacts.right.1);
             let inside = |x: f64, a: f64, b: f64| x > a.min(b) && x < a.max(b);
-            let mut station = (inside(s, s0, s1) && inside(t, t0, t1)).then(|| self.station(place))?;
+            let mut station = (inside(s, s0, s1) && inside(t, t0, t1)).then(|| self.station(contacts))?;
             station.curvature = circle?.k;
             Some(station)
         })
     }
 
     /// The contacts of a circle that meets both pieces, possibly outside them. `None` for two straight pieces, where k does not determine the position.
-    pub(crate) fn contacts(&self, (i, j): (usize, usize), circle: &Circle) -> Option<Place> {
+    pub(crate) fn contacts(&self, (i, j): (usize, usize), circle: &Circle) -> Option<Contacts> {
         let (l, r) = (&self.left[i], &self.right[j]);
         let (s, t) = match (turned(l, circle), turned(r, circle)) {
             (Some(s), Some(t)) => (s, t),
@@ -300,21 +300,21 @@ impl Walls {
             (None, Some(t)) => (l.answer(r.point(t), r.direction(t))?, t),
             (None, None) => return None,
         };
-        Some(Place { left: (i, s), right: (j, t) })
+        Some(Contacts { left: (i, s), right: (j, t) })
     }
 }
 
-/// A pair of pieces that the path enters at `place`.
+/// A pair of pieces that the path enters at `contacts`.
 struct Cell {
-    place: Place,
+    contacts: Contacts,
     signs: (f64, f64),
 }
 
 impl Cell {
     /// Whether `a` lies beyond `b` on the path.
     fn is_beyond(&self, a: &Station, b: &Station) -> bool {
-        self.signs.0.signum() * (a.place.left.1 - b.place.left.1)
-            + self.signs.1.signum() * (a.place.right.1 - b.place.right.1)
+        self.signs.0.signum() * (a.contacts.left.1 - b.contacts.left.1)
+            + self.signs.1.signum() * (a.contacts.right.1 - b.contacts.right.1)
             > 0.0
     }
 }

@@ -89,19 +89,19 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
         for phase in &FLUIDS {
             let centers = snapshot.particles.points.iter().enumerate();
             let centers =
-                centers.filter(|(a, _)| phase_of(snapshot, *a) == Some(phase.number)).map(|(_, &x)| view.place(x));
+                centers.filter(|(a, _)| phase_of(snapshot, *a) == Some(phase.number)).map(|(_, &x)| view.pixel(x));
             canvas.circles(centers, cover.max(1.0), if is_core { phase.core } else { phase.color });
         }
     }
     let core = (CORE * radius).max(SMALLEST_CORE);
-    canvas.circles(unresolved(snapshot).map(|x| view.place(x)), core, UNRESOLVED);
+    canvas.circles(unresolved(snapshot).map(|x| view.pixel(x)), core, UNRESOLVED);
 }
 
 /// Lines, translated by each of `shifts` in m.
 fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, (width, color): (f32, Rgb), shifts: &[Vec2]) {
     for line in &lines.lines {
         let points = || line.iter().filter_map(|&i| lines.points.get(i as usize));
-        shifts.iter().for_each(|shift| canvas.polyline(points().map(|&x| view.place(x + shift)), width, color));
+        shifts.iter().for_each(|shift| canvas.polyline(points().map(|&x| view.pixel(x + shift)), width, color));
     }
 }
 
@@ -180,7 +180,7 @@ mod tests {
             [pixel.red(), pixel.green(), pixel.blue()]
         };
         let view = View::new(Bounds { min: Vec2::zeros(), max: Vec2::new(4.0e-4, 3.0e-4) }, Some(&frame));
-        let at = |x: f64| view.place(Vec2::new(x, 1.0e-4))[0] as usize;
+        let at = |x: f64| view.pixel(Vec2::new(x, 1.0e-4))[0] as usize;
         assert_eq!([of(at(0.99e-4)), of(at(3.02e-4))], [[255; 3]; 2]);
         assert_ne!(of(at(2.5e-4)), [255; 3]);
         let arrows = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == OUTLINE).count();

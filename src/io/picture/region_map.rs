@@ -46,23 +46,23 @@ pub(crate) fn region_map_picture(region_map: &RegionMap, title: &str) -> Result<
             Tone::Value(value) => color_at(region_map.bar, (value - low) / (high - low)),
             Tone::Class(class) => region_map.classes.get(class).map_or(SOLID, |(_, color)| *color),
         };
-        canvas.polygon(area.boundary.iter().map(|&x| view.place(x.into())), color);
+        canvas.polygon(area.boundary.iter().map(|&x| view.pixel(x.into())), color);
     }
     // Thousands of grains require thin lines.
     const FEW: usize = 500;
     let thin = if region_map.walls.len() < FEW { 1.0 } else { 0.4 };
     for (line, width) in &region_map.strips.1 {
         let width = ((width * view.scale) as f32).max(THINNEST);
-        canvas.polyline(line.iter().map(|&x| view.place(x.into())), width, STRIP);
+        canvas.polyline(line.iter().map(|&x| view.pixel(x.into())), width, STRIP);
     }
     for wall in &region_map.walls {
-        canvas.polyline(wall.iter().map(|&x| view.place(x.into())), 1.5 * thin, OUTLINE);
+        canvas.polyline(wall.iter().map(|&x| view.pixel(x.into())), 1.5 * thin, OUTLINE);
     }
     for throat in &region_map.throats.1 {
-        canvas.dashes(throat.iter().map(|&x| view.place(x.into())), 2.0 * thin, THROAT);
+        canvas.dashes(throat.iter().map(|&x| view.pixel(x.into())), 2.0 * thin, THROAT);
     }
     for line in &region_map.menisci.1 {
-        canvas.polyline(line.iter().map(|&x| view.place(x.into())), 3.0 * thin, INTERFACE);
+        canvas.polyline(line.iter().map(|&x| view.pixel(x.into())), 3.0 * thin, INTERFACE);
     }
     view.frame(&mut canvas);
     heading(&mut canvas, title, &region_map.note);

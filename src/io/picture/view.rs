@@ -45,7 +45,7 @@ impl View {
             }
         }
         let mut view = Self { open, ..Self::of(bounds) };
-        view.inner = [Vec2::new(inner.min.x, inner.max.y), Vec2::new(inner.max.x, inner.min.y)].map(|x| view.place(x));
+        view.inner = [Vec2::new(inner.min.x, inner.max.y), Vec2::new(inner.max.x, inner.min.y)].map(|x| view.pixel(x));
         view
     }
 
@@ -57,7 +57,7 @@ impl View {
         Self { min: bounds.min, scale, corner, size, inner: [corner; 2], open: [None; 4] }
     }
 
-    pub(super) fn place(&self, x: Vec2) -> [f32; 2] {
+    pub(super) fn pixel(&self, x: Vec2) -> [f32; 2] {
         let from = (x - self.min) * self.scale;
         [self.corner[0] + from.x as f32, self.corner[1] + self.size[1] - from.y as f32]
     }
@@ -94,9 +94,9 @@ impl View {
         let head = if through == Through::In { 0.35 * room } else { -0.35 * room };
         for k in 1..=ARROWS {
             let fraction = k as f32 / (ARROWS + 1) as f32;
-            let foot = [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]));
+            let base = [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]));
             let at = |out: f32, aside: f32| {
-                [foot[0] + out * outward[0] + aside * outward[1], foot[1] + out * outward[1] + aside * outward[0]]
+                [base[0] + out * outward[0] + aside * outward[1], base[1] + out * outward[1] + aside * outward[0]]
             };
             canvas.polyline([at(tail, 0.0), at(tip + 0.7 * head, 0.0)].into_iter(), 3.0, OUTLINE);
             canvas

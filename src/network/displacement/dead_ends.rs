@@ -114,15 +114,15 @@ fn chords(part: &Loop, wall: usize) -> Vec<Mouth> {
             let mut add = |from, to| found.push(Mouth { wall, from, to, length: between });
             // The facing wall may continue past the edge.
             if enters(first) {
-                let foot = pieces[last].curve.project(p);
-                if foot.u > 0.0 {
-                    add(start, WallPoint { piece: last, u: foot.u, point: foot.point });
+                let closest = pieces[last].curve.project(p);
+                if closest.u > 0.0 {
+                    add(start, WallPoint { piece: last, u: closest.u, point: closest.point });
                 }
             }
             if leaves(last) {
-                let foot = pieces[first].curve.project(q);
-                if foot.u < 1.0 {
-                    add(WallPoint { piece: first, u: foot.u, point: foot.point }, end);
+                let closest = pieces[first].curve.project(q);
+                if closest.u < 1.0 {
+                    add(WallPoint { piece: first, u: closest.u, point: closest.point }, end);
                 }
             }
         }

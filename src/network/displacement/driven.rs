@@ -40,7 +40,7 @@ impl Displacement {
     pub(crate) fn gates(&self) -> Vec<GateFacts> {
         let mesh = &self.mesh;
         let facts = |(index, gate): (usize, &super::mesh::Gate)| {
-            let (part, slot) = gate.places[0];
+            let (part, slot) = gate.crossings[0];
             let crossing = &mesh.loops[part].crossings[slot];
             GateFacts {
                 elements: [mesh.element(index, 0), mesh.element(index, 1)],
@@ -83,7 +83,7 @@ impl Displacement {
     }
 
     /// The passage of a hypothetical meniscus entering an element through a gate, and the curvature in 1/m of its own event.
-    pub(crate) fn front_to_come(&self, (gate, end): FrontId) -> (Passage, f64) {
+    pub(crate) fn future_front(&self, (gate, end): FrontId) -> (Passage, f64) {
         let (passage, obstacles) = self.passage_at(&self.conditions.angle, &self.mesh, (gate, end), Vec2::zeros());
         let own = self.own_event(&passage, &obstacles).1;
         (passage, own)
@@ -125,7 +125,7 @@ impl Displacement {
     }
 
     /// Whether the menisci of an advance still exist, and still meet.
-    pub(crate) fn still_waits(&self, advance: &Advance) -> bool {
+    pub(crate) fn is_pending(&self, advance: &Advance) -> bool {
         let ((gate, to), partner) = advance.fronts;
         let waits = |(gate, end): FrontId| self.fronts[gate][end].is_some();
         if !waits((gate, to)) {

@@ -98,7 +98,7 @@ impl Displacement {
 
     /// The next meniscus along a wall of a gate, ahead of the meniscus that enters it, with nothing but the defending phase in between.
     pub(super) fn neighbor(&self, mesh: &Mesh, (gate, to): (usize, usize), hand: Hand) -> Option<Neighbor> {
-        let (mut index, slot) = mesh.gates[gate].places[to];
+        let (mut index, slot) = mesh.gates[gate].crossings[to];
         let next = |index: usize, k: usize| (k + 1) % mesh.loops[index].walls.len();
         let before = |index: usize, k: usize| (k + mesh.loops[index].walls.len() - 1) % mesh.loops[index].walls.len();
         // The wall on the left ahead leads to the next crossing, the one on the right to that before.

@@ -26,7 +26,7 @@ struct Met {
 
 /// The passage of a meniscus, and the other walls ahead of it.
 #[derive(Debug, Clone)]
-pub(crate) struct Place {
+pub(crate) struct Site {
     /// Both walls.
     pub(crate) passage: Passage,
     /// The walls ahead.
@@ -37,7 +37,7 @@ pub(crate) struct Place {
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
     /// From left to right in the direction of advance: one, or the two of an overlap, which share the wall between them.
-    pub(crate) places: Vec<Place>,
+    pub(crate) sites: Vec<Site>,
     /// Whether two menisci merged at a lower pressure than that of the event.
     pub(crate) has_waited: bool,
 }
@@ -57,16 +57,16 @@ impl Involved {
 impl Displacement {
     /// The menisci of an event of this displacement, with their walls.
     pub(crate) fn scene(&self, involved: Involved) -> Scene {
-        let place = |front: FrontId, offset: Vec2| {
+        let site = |front: FrontId, offset: Vec2| {
             let (passage, ahead) = self.passage_at(&self.conditions.angle, &self.mesh, front, offset);
-            Place { passage, ahead }
+            Site { passage, ahead }
         };
         let Involved { front, met } = involved;
-        let one = place(front, Vec2::zeros());
-        let Some(met) = met else { return Scene { places: vec![one], has_waited: false } };
-        let other = place(met.front, met.offset);
+        let one = site(front, Vec2::zeros());
+        let Some(met) = met else { return Scene { sites: vec![one], has_waited: false } };
+        let other = site(met.front, met.offset);
         // The wall on the left of a meniscus leads to its left neighbor.
-        let places = if met.hand == Hand::Left { vec![other, one] } else { vec![one, other] };
-        Scene { places, has_waited: met.has_waited }
+        let sites = if met.hand == Hand::Left { vec![other, one] } else { vec![one, other] };
+        Scene { sites, has_waited: met.has_waited }
     }
 }

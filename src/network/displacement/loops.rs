@@ -6,7 +6,7 @@
 
 use crate::geometry::closest::closest_points as closest;
 use crate::geometry::curve::{ClosestPoint, Curve, cross};
-use crate::geometry::intersect::meeting_places;
+use crate::geometry::intersect::intersections;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
 
@@ -200,14 +200,14 @@ pub(super) fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
     if !(length > 0.0) {
         return false;
     }
-    let mut places = Vec::new();
+    let mut parameters = Vec::new();
     for curve in curves {
-        meeting_places(&segment, curve, 1e-9 * length, &mut places);
+        intersections(&segment, curve, 1e-9 * length, &mut parameters);
     }
     let middle = 0.5 * (p + q);
     // The pore lies on the right of the loop.
     let winding: f64 = curves.iter().map(|curve| curve.winding(middle)).sum();
-    places.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && winding < -std::f64::consts::PI
+    parameters.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && winding < -std::f64::consts::PI
 }
 
 /// Divides a loop until each part has at most three stretches of wall or no dividing segment is left. Segments are numbered from

@@ -23,7 +23,7 @@ pub(super) struct Element {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gate {
     /// On each side the loop and the number of the crossing in it.
-    pub(crate) places: [(usize, usize); 2],
+    pub(crate) crossings: [(usize, usize); 2],
     /// Shift in m from the frame of the first loop to that of the second.
     pub(crate) shift: Vec2,
     /// The throat, if it is one.
@@ -144,13 +144,13 @@ impl Mesh {
     /// Sets both sides of each gate.
     fn joined(mut self, network: &Network, segments: usize, is_gate: &dyn Fn(usize) -> bool) -> Self {
         let throats = network.throats.len();
-        let mut places = vec![[None; 2]; throats + segments];
+        let mut crossings = vec![[None; 2]; throats + segments];
         for (index, part) in self.loops.iter().enumerate() {
             let element = self.element_of[index];
             for (slot, crossing) in part.crossings.iter().enumerate() {
                 match crossing.gate {
-                    GateId::Throat(throat, end) => places[throat][end] = Some((index, slot)),
-                    GateId::Segment(segment, side) => places[throats + segment][side] = Some((index, slot)),
+                    GateId::Throat(throat, end) => crossings[throat][end] = Some((index, slot)),
+                    GateId::Segment(segment, side) => crossings[throats + segment][side] = Some((index, slot)),
                     GateId::Opening(opening) => {
                         self.elements[element].open[network.openings[opening].side] = true;
                     }
@@ -166,7 +166,7 @@ impl Mesh {
         }
         self.gate_at = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
         self.twins = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
-        for (k, sides) in places.into_iter().enumerate() {
+        for (k, sides) in crossings.into_iter().enumerate() {
             let throat = (k < throats).then_some(k);
             let [Some(one), Some(other)] = sides else { continue };
             let shift = throat.map_or_else(Vec2::zeros, |throat| network.throats[throat].shift);
@@ -180,14 +180,14 @@ impl Mesh {
                 self.gate_at[index][slot] = Some((gate, end));
                 self.elements[self.element_of[index]].gates.push((gate, end));
             }
-            self.gates.push(Gate { places: [one, other], shift, throat });
+            self.gates.push(Gate { crossings: [one, other], shift, throat });
         }
         self
     }
 
     /// The element on side `end` of a gate.
     pub(crate) fn element(&self, gate: usize, end: usize) -> usize {
-        self.element_of[self.gates[gate].places[end].0]
+        self.element_of[self.gates[gate].crossings[end].0]
     }
 
     /// The neighbors of an element, one for each of its gates that is not closed and leads to another element.

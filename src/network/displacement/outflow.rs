@@ -83,8 +83,8 @@ impl Outflow {
         // New paths start from elements beside connected ones, and spread among the others.
         let mut queue = Vec::new();
         for &cut in &lost {
-            if let Some(way) = mesh.neighbors(closed, cut).find(|&other| self.next[other].is_some()) {
-                self.next[cut] = Some(way);
+            if let Some(next) = mesh.neighbors(closed, cut).find(|&other| self.next[other].is_some()) {
+                self.next[cut] = Some(next);
                 queue.push(cut);
             }
         }

@@ -158,7 +158,7 @@ impl Displacement {
         for gate in (0..mesh.gates.len()).filter(|&gate| begun.closed[gate]).collect::<Vec<_>>() {
             begun.advance_from_closed(&mesh, gate);
         }
-        begun.await_films(&mesh);
+        begun.queue_snap_off(&mesh);
         begun
     }
 
@@ -178,7 +178,7 @@ impl Displacement {
         closing.retain(|&gate| self.closed[gate]);
         for &element in &elements {
             let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
-            let lost = self.connection.lose(held, element);
+            let lost = self.connection.remove(held, element);
             self.leave(mesh, lost);
         }
         self.lose_through(mesh, &closing);
@@ -219,7 +219,7 @@ impl Displacement {
             if !self.invaded[target] && !self.connection.trapped[target] && self.fronts[gate][to].is_none() {
                 self.advance_through(mesh, gate, to);
             } else if self.closed[gate] && self.invaded[target] && self.fronts[gate][to].is_none() {
-                self.await_reconnection(mesh, gate, to);
+                self.queue_reconnection(mesh, gate, to);
             }
         }
     }

@@ -70,7 +70,7 @@ impl Displacement {
         const ROUNDING: f64 = 1e-9;
         let is_allowed = |next: &&Candidate| next.curvature <= self.conditions.largest_curvature;
         let &Candidate { curvature: lowest, gate, .. } = self.queue.peek().filter(is_allowed)?;
-        let (part, slot) = self.mesh.gates[gate].places[0];
+        let (part, slot) = self.mesh.gates[gate].crossings[0];
         let chord = self.mesh.loops[part].crossings[slot].to - self.mesh.loops[part].crossings[slot].from;
         let rounding = ROUNDING * lowest.abs().max(2.0 / chord.norm());
         let highest = (lowest + rounding).min(self.conditions.largest_curvature);

@@ -14,7 +14,7 @@ use crate::math::Vec2;
 
 impl Displacement {
     /// Queues snap-off at the curvature in 1/m at which films meet, for all throats that are gates.
-    pub(super) fn await_films(&mut self, mesh: &Mesh) {
+    pub(super) fn queue_snap_off(&mut self, mesh: &Mesh) {
         let CornerFilms::Join { meeting } = &self.conditions.films else { return };
         for (gate, throat) in mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
             let curvature = meeting[throat];
@@ -66,7 +66,7 @@ impl Displacement {
     }
 
     /// Places a meniscus in a closed gate with its own phase on the other side, to reconnect both.
-    pub(super) fn await_reconnection(&mut self, mesh: &Mesh, gate: usize, to: usize) {
+    pub(super) fn queue_reconnection(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, _) = self.passage_at(&self.conditions.angle, mesh, (gate, to), Vec2::zeros());
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let own = self.conditions.burst(mesh.gates[gate].throat, formula);

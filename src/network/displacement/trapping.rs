@@ -11,7 +11,7 @@ pub(super) struct Connection {
     /// Invading elements connected to the inlet.
     joined: Vec<bool>,
     /// Paths of the defending phase to the outlets; `None` if nothing is trapped.
-    ways: Option<Outflow>,
+    paths: Option<Outflow>,
     /// Trapped elements of the defending phase.
     pub(super) trapped: Vec<bool>,
 }
@@ -31,18 +31,18 @@ impl Connection {
         let Held { mesh, invaded, closed } = held;
         let (count, [inlets, outlets]) = (invaded.len(), opens);
         let is_free = conditions.trapping == Trapping::None;
-        let ways = if is_free || conditions.films == CornerFilms::Drain || !outlets.contains(&true) {
+        let paths = if is_free || conditions.films == CornerFilms::Drain || !outlets.contains(&true) {
             None
         } else {
             let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
             Some(Outflow::new(mesh, closed, &defends, outlets))
         };
-        let trapped = (0..count).map(|e| !invaded[e] && ways.as_ref().is_some_and(|ways| !ways.is_open(e))).collect();
+        let trapped = (0..count).map(|e| !invaded[e] && paths.as_ref().is_some_and(|it| !it.is_open(e))).collect();
         if is_free || matches!(conditions.films, CornerFilms::Join { .. }) {
             let all = (0..count).filter(|&element| invaded[element]).collect();
-            return (Self { joined: invaded.to_vec(), ways, trapped }, all);
+            return (Self { joined: invaded.to_vec(), paths, trapped }, all);
         }
-        let mut begun = Self { joined: vec![false; count], trapped, ways };
+        let mut begun = Self { joined: vec![false; count], trapped, paths };
         let first = (0..count).filter(|&e| inlets[e]).flat_map(|e| begun.join(held, e)).collect();
         (begun, first)
     }
@@ -66,14 +66,14 @@ impl Connection {
     }
 
     /// Removes an element from the defending phase, and returns those that this traps.
-    pub(super) fn lose(&mut self, held: Held, element: usize) -> Vec<usize> {
-        let lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.remove(held.mesh, held.closed, element));
+    pub(super) fn remove(&mut self, held: Held, element: usize) -> Vec<usize> {
+        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.remove(held.mesh, held.closed, element));
         self.trap(held, lost)
     }
 
     /// Closes the gate between two elements to the defending phase, and returns those that this traps.
     pub(super) fn close(&mut self, held: Held, between: [usize; 2]) -> Vec<usize> {
-        let lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.close(held.mesh, held.closed, between));
+        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.close(held.mesh, held.closed, between));
         self.trap(held, lost)
     }
 

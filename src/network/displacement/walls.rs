@@ -45,8 +45,8 @@ struct Followed {
 /// The walls of a gate for a meniscus that enters the loop at its end `to`. `centers` are those of the regions.
 pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) -> GateWalls {
     let sides = mesh.gates[gate];
-    let (into, slot) = sides.places[to];
-    let (out_of, old_slot) = sides.places[1 - to];
+    let (into, slot) = sides.crossings[to];
+    let (out_of, old_slot) = sides.crossings[1 - to];
     // From the frame of the loop behind to that of the loop ahead.
     let shift = if to == 1 { sides.shift } else { -sides.shift };
     let ahead = ends(mesh, (into, slot), centers[mesh.region_of[into]]);

@@ -82,7 +82,7 @@ impl CapillaryCurve {
     }
 
     /// The swept area v in m² at which c (v − `from`) plus the total curvature is `drive`, with c in 1/m³ and the drive in 1/m.
-    pub(crate) fn standing(&self, from: f64, c: f64, drive: f64) -> f64 {
+    pub(crate) fn balanced_area(&self, from: f64, c: f64, drive: f64) -> f64 {
         let need = |point: usize| c * (self.area[point] - from) + self.total[point];
         let (mut low, mut high) = (0, self.area.len());
         while low < high {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::graph::{Graph, Link, Way};
+use super::graph::{Graph, Link, LinkKind};
 use super::{Drive, Dynamic};
 use crate::math::root;
 use crate::network::conductance::LEAST_RESISTANCE as LEAST;
@@ -82,35 +82,35 @@ impl Dynamic {
                     end_node = filling_pore.node;
                     filling_pore.join(&mut halves);
                 }
-                links.push(Link { way: Way::Meniscus((index, end)), elements: [from, to], halves });
-                let is_good = has_burst && self.on_its_way((index, end)).is_none();
+                links.push(Link { kind: LinkKind::Meniscus((index, end)), elements: [from, to], halves });
+                let is_good = has_burst && self.approaching_outlet((index, end)).is_none();
                 edges.push(Edge { ends: (node_of[from], Some(end_node)), is_good });
             } else if gate.throat.is_some() && self.is_invaded(a) == self.is_invaded(b) && node_of[a] != node_of[b] {
-                links.push(Link { way: Way::Open, elements: [a, b], halves });
+                links.push(Link { kind: LinkKind::Open, elements: [a, b], halves });
                 edges.push(Edge { ends: (node_of[a], Some(node_of[b])), is_good: true });
             }
         }
         for &(opening, element) in &self.openings {
             let side = self.network.openings[opening].side;
-            let way = match () {
-                () if self.terms.inlet[side] => Way::Inlet,
-                () if self.terms.outlet[side] => Way::Outlet,
+            let kind = match () {
+                () if self.terms.inlet[side] => LinkKind::Inlet,
+                () if self.terms.outlet[side] => LinkKind::Outlet,
                 () => continue,
             };
             // Flow into a filling pore is against the direction of the link.
             let mut halves = [0.0, self.opening_resistances[opening]];
             let mut node = node_of[element];
-            if let Some(filling_pore) = filling_pores.get_mut(&element).filter(|_| way == Way::Inlet) {
+            if let Some(filling_pore) = filling_pores.get_mut(&element).filter(|_| kind == LinkKind::Inlet) {
                 node = filling_pore.node;
                 filling_pore.join(&mut halves);
             }
-            let to = if way == Way::Inlet { inlet } else { None };
-            links.push(Link { way, elements: [element; 2], halves: [halves[1], halves[0]] });
+            let to = if kind == LinkKind::Inlet { inlet } else { None };
+            links.push(Link { kind, elements: [element; 2], halves: [halves[1], halves[0]] });
             edges.push(Edge { ends: (node, to), is_good: to.is_some() });
         }
         for (&element, filling_pore) in &filling_pores {
             links.push(Link {
-                way: Way::FillingPore(element),
+                kind: LinkKind::FillingPore(element),
                 elements: [element; 2],
                 halves: [0.0, filling_pore.resistance()],
             });

@@ -59,7 +59,7 @@ pub(super) struct FillingPore {
 
 impl FillingPore {
     /// Area in m² just above that at which the element is full.
-    pub(crate) fn beyond(&self) -> f64 {
+    pub(crate) fn just_above_full(&self) -> f64 {
         self.full * (1.0 + 1e-9)
     }
 }
@@ -108,19 +108,19 @@ impl Dynamic {
             if self.state.filling[element].is_some() && !is_leaving {
                 continue;
             }
-            let overhangs = self.overhangs(element);
-            if fronts.len() + overhangs.len() > 1 || self.state.filling[element].is_some() {
-                let held = overhangs.iter().map(|(_, area)| area).sum::<f64>() + self.passed_in_outlet(element);
+            let excess_areas = self.excess_areas(element);
+            if fronts.len() + excess_areas.len() > 1 || self.state.filling[element].is_some() {
+                let held = excess_areas.iter().map(|(_, area)| area).sum::<f64>() + self.passed_in_outlet(element);
                 event_functions.push(EventFunction::Covered { element, fronts, held });
             }
         }
         for (element, filling) in self.state.filling.iter().enumerate() {
             let Some(filling) = filling.as_ref().filter(|_| !self.is_outlet[element]) else { continue };
-            let overhangs: f64 = self.overhangs(element).iter().map(|(_, area)| area).sum();
-            let target = self.target(element, filling) - overhangs;
+            let excess_areas: f64 = self.excess_areas(element).iter().map(|(_, area)| area).sum();
+            let target = self.target(element, filling) - excess_areas;
             event_functions.push(EventFunction::Full { element, target });
         }
-        event_functions.extend(self.all_on_their_way().into_iter().map(EventFunction::Leaves));
+        event_functions.extend(self.all_approaching_outlet().into_iter().map(EventFunction::Leaves));
         event_functions
     }
 
@@ -137,7 +137,7 @@ impl Dynamic {
             .retain(|function| !matches!(function, EventFunction::Full { element, .. } if has_body(*element)));
         event_functions.extend((0..filling_pores.len()).map(EventFunction::Beyond));
         let side = |front: FrontId| {
-            let behind = self.behind(front);
+            let behind = self.origin(front);
             let filling_pore =
                 filling_pores.iter().position(|filling_pore| filling_pore.element == behind).map(Side::FillingPore);
             filling_pore.or_else(|| self.waits(front).then_some(Side::Front(front)))
@@ -163,14 +163,14 @@ impl Dynamic {
     /// The invading phase in a filling element.
     pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling) -> FillingPore {
         let own = self.displacement.elements()[element].area;
-        let overhangs: f64 = self.overhangs(element).iter().map(|(_, area)| area).sum();
+        let excess_areas: f64 = self.excess_areas(element).iter().map(|(_, area)| area).sum();
         // Menisci ahead of elements that the full element cuts off from the outlet do not advance.
         let cut_off = self.trapped_once_full(Some(element));
         let (stopped, ahead): (Vec<_>, Vec<_>) =
-            self.to_come(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
+            self.future_menisci(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
         let stopped: f64 = stopped.iter().map(|it| it.area(filling.curvature)).sum();
-        let first = ahead.iter().map(|to_come| to_come.curve.end().1).reduce(f64::min);
-        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - overhangs;
+        let first = ahead.iter().map(|it| it.curve.end().1).reduce(f64::min);
+        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - excess_areas;
         let full = held(filling.curvature);
         let mut points = vec![(full, filling.curvature)];
         let last = first.map_or(filling.curvature, |first| first.max(filling.curvature));
@@ -230,7 +230,7 @@ impl Dynamic {
                 (target - filled - waiting) / self.scale_of_filling(*element)
             }
             EventFunction::Leaves(front) => {
-                self.missing_to_outlet(*front, &at.front) / element_area(self.ahead_of(*front))
+                self.remaining_to_outlet(*front, &at.front) / element_area(self.ahead_of(*front))
             }
             EventFunction::Beyond(index) => {
                 let FillingPore { element, full, first, passes, .. } = &filling_pores[*index];

@@ -9,14 +9,14 @@ use crate::network::cycles::Invasion;
 use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
 
 /// A meniscus that will form in a gate of a filling element once it is full.
-pub(super) struct ToCome<'a> {
+pub(super) struct FutureMeniscus<'a> {
     pub(crate) front: FrontId,
     pub(crate) curve: &'a CapillaryCurve,
     /// Free area in m² ahead of it.
     free: f64,
 }
 
-impl ToCome<'_> {
+impl FutureMeniscus<'_> {
     /// Swept area in m² at a curvature in 1/m.
     pub(crate) fn area(&self, curvature: f64) -> f64 {
         self.curve.area(curvature.min(self.curve.end().1)).min(self.free)
@@ -45,7 +45,7 @@ impl Dynamic {
     }
 
     /// Overlaps of the menisci that will form when filling elements are full, with one another and with present ones.
-    pub(super) fn find_meetings_to_come(&self) -> Vec<Advance> {
+    pub(super) fn find_future_meetings(&self) -> Vec<Advance> {
         let filling: Vec<usize> = (0..self.state.filling.len())
             .filter(|&element| self.state.filling[element].is_some() && !self.is_outlet[element])
             .collect();
@@ -59,12 +59,12 @@ impl Dynamic {
 
     /// Area in m² of the invading phase in an element when it is full, including the menisci that then form in its gates.
     pub(super) fn target(&self, element: usize, filling: &Filling) -> f64 {
-        let menisci: f64 = self.to_come(element).iter().map(|it| it.area(filling.curvature)).sum();
+        let menisci: f64 = self.future_menisci(element).iter().map(|it| it.area(filling.curvature)).sum();
         self.displacement.elements()[element].area + menisci
     }
 
     /// The menisci that will form in the gates of a filling element once it is full.
-    pub(super) fn to_come(&self, element: usize) -> Vec<ToCome<'_>> {
+    pub(super) fn future_menisci(&self, element: usize) -> Vec<FutureMeniscus<'_>> {
         let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
         ahead
             .map(|(front, curve)| {
@@ -73,23 +73,23 @@ impl Dynamic {
                     + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>()
                     + self.passed_in_outlet(into);
                 let free = (self.displacement.elements()[into].area - held).max(0.0);
-                ToCome { front: *front, curve, free }
+                FutureMeniscus { front: *front, curve, free }
             })
             .collect()
     }
 
     /// The area in m² that filling neighbors hold in excess of their own belongs to menisci yet to form: those that will enter an element, each with its part.
-    pub(super) fn overhangs(&self, into: usize) -> Vec<(FrontId, f64)> {
+    pub(super) fn excess_areas(&self, into: usize) -> Vec<(FrontId, f64)> {
         let overhang = |&front: &FrontId| {
-            let neighbor = self.behind(front);
+            let neighbor = self.origin(front);
             let filling = self.state.filling[neighbor].as_ref()?;
             let beyond = self.filled_area(neighbor, filling) - self.displacement.elements()[neighbor].area;
             if beyond <= 0.0 {
                 return None;
             }
-            let to_come = self.to_come(neighbor);
-            let all: f64 = to_come.iter().map(|it| it.area(filling.curvature)).sum();
-            let area = to_come.iter().find(|it| it.front == front)?.area(filling.curvature);
+            let future_menisci = self.future_menisci(neighbor);
+            let all: f64 = future_menisci.iter().map(|it| it.area(filling.curvature)).sum();
+            let area = future_menisci.iter().find(|it| it.front == front)?.area(filling.curvature);
             (all > 0.0).then(|| (front, beyond.min(all) * area / all))
         };
         self.displacement.gates_of(into).iter().filter_map(overhang).collect()
@@ -101,7 +101,7 @@ impl Dynamic {
     }
 
     /// The element that a meniscus comes from.
-    pub(super) fn behind(&self, (gate, end): FrontId) -> usize {
+    pub(super) fn origin(&self, (gate, end): FrontId) -> usize {
         self.gates[gate].elements[1 - end]
     }
 
@@ -156,11 +156,11 @@ impl Dynamic {
                 Some((front, self.curves[front.0][front.1].as_ref()?.curvature(meniscus.area)))
             })
             .collect();
-        let to_come = self
-            .overhangs(element)
+        let future_menisci = self
+            .excess_areas(element)
             .into_iter()
-            .filter_map(|(front, _)| Some((front, self.state.filling[self.behind(front)].as_ref()?.curvature)));
-        let all = waiting.iter().copied().chain(to_come);
+            .filter_map(|(front, _)| Some((front, self.state.filling[self.origin(front)].as_ref()?.curvature)));
+        let all = waiting.iter().copied().chain(future_menisci);
         let Some((first, curvature)) = all.max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
         let invasion = self.note(EventKind::Overlap, first, curvature);
         if self.state.filling[element].is_none() {
@@ -198,7 +198,7 @@ impl Dynamic {
         let ahead = gates.filter(|&front| self.ahead_of(front) != element && !self.is_invaded(self.ahead_of(front)));
         ahead
             .filter_map(|front| {
-                let (passage, own) = self.displacement.front_to_come(front);
+                let (passage, own) = self.displacement.future_front(front);
                 Some((front, self.curve(front, &passage, own)?))
             })
             .collect()
@@ -231,8 +231,8 @@ impl Dynamic {
 
     /// An element is full: menisci form in its gates, and the area of the invading phase is conserved.
     fn complete(&mut self, element: usize) {
-        for (front, area) in self.overhangs(element) {
-            for (holder, change) in [(self.behind(front), -area), (element, area)] {
+        for (front, area) in self.excess_areas(element) {
+            for (holder, change) in [(self.origin(front), -area), (element, area)] {
                 if let Some(filling) = &mut self.state.filling[holder] {
                     filling.area += change;
                 }
@@ -283,7 +283,7 @@ impl Dynamic {
         let new = self.displacement.new_advances();
         self.advances.extend(new);
         let displacement = &self.displacement;
-        self.advances.retain(|advance| displacement.still_waits(advance));
+        self.advances.retain(|advance| displacement.is_pending(advance));
     }
 }
 

@@ -5,7 +5,7 @@ use crate::network::laplacian::Laplacian;
 
 /// The type of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Way {
+pub(super) enum LinkKind {
     /// A throat with one phase on both sides.
     Open,
     /// A gate with a meniscus.
@@ -21,7 +21,7 @@ pub(super) enum Way {
 /// A link with the elements that it joins; at an open side both are the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Link {
-    pub(crate) way: Way,
+    pub(crate) kind: LinkKind,
     pub(crate) elements: [usize; 2],
     /// Resistances in 1/m² on the side of each element.
     pub(crate) halves: [f64; 2],

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::capillary_curve::CapillaryCurve;
 use super::event_functions::{EventFunction, FillingPore};
-use super::graph::{Graph, Link, Way};
+use super::graph::{Graph, Link, LinkKind};
 use super::{Drive, Dynamic};
 use crate::network::displacement::FrontId;
 
@@ -65,7 +65,7 @@ impl Dynamic {
         let mut law_of = vec![None; graph.links.len()];
         laws.iter().enumerate().for_each(|(index, law)| law_of[law.link] = Some(index));
         for law in &mut laws {
-            if let Way::FillingPore(element) = graph.links[law.link].way {
+            if let LinkKind::FillingPore(element) = graph.links[law.link].kind {
                 let fronts = self.entering(element).filter_map(|((gate, _), _)| graph.link_of[gate]);
                 law.entering = fronts.filter_map(|link| law_of[link]).collect();
             }
@@ -93,7 +93,7 @@ impl Dynamic {
     fn bodies_with_links(&self, graph: &Graph, drops: &[(f64, f64)], open: &[usize]) -> Vec<FillingPore> {
         let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
         let with_link = |(link, &(resistance, _)): (&Link, &(f64, f64))| {
-            let Way::FillingPore(element) = link.way else { return None };
+            let LinkKind::FillingPore(element) = link.kind else { return None };
             let filling_pore = self.filling_pore(element, self.state.filling[element].as_ref()?);
             let rate = self.filling_rate(graph, &filling_pore, resistance);
             let is_quick = rate * self.state.last_steps[0] * QUICK > filling_pore.full - filling_pore.area;
@@ -115,9 +115,9 @@ impl Dynamic {
 
     /// The capillary law of a link, if it has one.
     fn law(&self, filling_pores: &[FillingPore], index: usize, link: &Link) -> Option<CapillaryLaw> {
-        match link.way {
-            Way::Meniscus((gate, end)) => {
-                let (meniscus, curve) = match self.on_its_way((gate, end)) {
+        match link.kind {
+            LinkKind::Meniscus((gate, end)) => {
+                let (meniscus, curve) = match self.approaching_outlet((gate, end)) {
                     Some((meniscus, reach)) => (meniscus, Arc::clone(&reach.curve)),
                     None => {
                         let waiting = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
@@ -135,13 +135,13 @@ impl Dynamic {
                     entering: Vec::new(),
                 })
             }
-            Way::FillingPore(element) => {
+            LinkKind::FillingPore(element) => {
                 let filling_pore = filling_pores.iter().find(|filling_pore| filling_pore.element == element)?;
                 Some(CapillaryLaw {
                     link: index,
                     curve: Arc::clone(&filling_pore.curve),
                     area: filling_pore.area,
-                    start: if filling_pore.passes { filling_pore.beyond() } else { filling_pore.area },
+                    start: if filling_pore.passes { filling_pore.just_above_full() } else { filling_pore.area },
                     scale: 1.0 / self.displacement.elements()[element].area.sqrt(),
                     full: Some(filling_pore.full),
                     passes: filling_pore.passes,

@@ -4,7 +4,7 @@ use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
 use crate::network::measures::{Costly, of_network};
-use crate::network::tables::{BEGINNING, counts, numbers, numbers_of_throats, places, words};
+use crate::network::tables::{BEGINNING, counts, indices, numbers, numbers_of_throats, words};
 use crate::solver::{Measure, Series, measure};
 use crate::table::Table;
 
@@ -113,13 +113,13 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
 /// A warning if menisci are fast enough to leave films of the wetting phase on floor and lid, which the network neglects.
 pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
     let config = &model.quasi_static.config;
-    let depth = config.depth_met_by(model.invading).filter(|_| model.invading == FluidPhase::NonWetting)?;
+    let depth = config.depth_for(model.invading).filter(|_| model.invading == FluidPhase::NonWetting)?;
     let wetting = model.dynamic.terms().viscosity[1];
     let number = model.capillary_number() * wetting / model.dynamic.terms().viscosity[0];
     depth.film_left(number).map(|film| {
         format!(
             "at Ca = {number:.1e} of the wetting phase and an angle of {:.0} degrees menisci leave films on floor and lid (Bretherton 1961: {film:.1e} of the depth each), \
-             which are left out: less is displaced in truth",
+             which are not modeled: in reality less is displaced",
             depth.wettest().to_degrees()
         )
     })
@@ -145,7 +145,7 @@ pub(crate) fn events(model: &DynamicModel) -> Table {
             // `burst`, `touch`, `overlap`; `beginning`: openings of the inlet filled, without a pressure
             words("event", std::iter::once(BEGINNING).chain(history().map(|event| event.kind.name()))),
             // Passed throat; empty within a pore, or for a throat that the merge dissolved
-            places("throat", std::iter::once(None).chain(throats)),
+            indices("throat", std::iter::once(None).chain(throats)),
             // Tension times meniscus curvature, positive where the meniscus bulges into the wetting phase
             numbers("meniscus_pressure_Pa", nothing().chain(history().map(|event| pressure(event.curvature)))),
             // Pressure at the inlet minus that at the outlet

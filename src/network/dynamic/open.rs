@@ -33,7 +33,7 @@ impl Dynamic {
 
     fn reach(&self, front: FrontId) -> Option<Reach> {
         let element = self.ahead_of(front);
-        let (passage, own) = self.displacement.front_to_come(front);
+        let (passage, own) = self.displacement.future_front(front);
         let event = self.curve(front, &passage, own)?.end().0;
         let lines =
             self.openings.iter().filter(|(_, at)| *at == element).filter_map(|(opening, _)| self.side(*opening));
@@ -61,19 +61,19 @@ impl Dynamic {
     }
 
     /// A meniscus past its event that has not yet touched the outlet, with its capillary curve.
-    pub(super) fn on_its_way(&self, (gate, end): FrontId) -> Option<(Meniscus, &Reach)> {
+    pub(super) fn approaching_outlet(&self, (gate, end): FrontId) -> Option<(Meniscus, &Reach)> {
         let meniscus = self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst && !meniscus.has_left)?;
         Some((meniscus, self.reaches[gate][end].as_ref()?))
     }
 
     /// All menisci past their events that have not yet touched the outlet.
-    pub(super) fn all_on_their_way(&self) -> Vec<FrontId> {
+    pub(super) fn all_approaching_outlet(&self) -> Vec<FrontId> {
         let gates = (0..self.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]);
-        gates.filter(|&front| self.on_its_way(front).is_some()).collect()
+        gates.filter(|&front| self.approaching_outlet(front).is_some()).collect()
     }
 
     /// Area in m² left until a meniscus touches the outlet or the element is full, with areas by front.
-    pub(super) fn missing_to_outlet(&self, front: FrontId, area: impl Fn(FrontId) -> f64) -> f64 {
+    pub(super) fn remaining_to_outlet(&self, front: FrontId, area: impl Fn(FrontId) -> f64) -> f64 {
         let element = self.ahead_of(front);
         let reach = self.reaches[front.0][front.1].as_ref().map_or(0.0, |reach| reach.area);
         let room = self.displacement.elements()[element].area - self.in_outlet(element, &area);

@@ -103,7 +103,7 @@ impl Dynamic {
     /// The area in m² of a law at the end of a step of the length `dt` in s, in equilibrium with a pressure drop in Pa.
     fn equilibrium_area(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
         let (law, tension) = (&known.laws[law], self.terms.tension);
-        law.curve.standing(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
+        law.curve.balanced_area(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
     }
 
     /// The same for a filling element that is not full: with one relaxation time, the inflow during a time d is a d/(1 + b d).

@@ -86,7 +86,7 @@ impl DynamicSolver {
             what: error.to_string(),
             time: self.model.dynamic.time(),
             step: self.model.dynamic.state.steps,
-            place: Vec2::zeros(),
+            position: Vec2::zeros(),
         }
     }
 }
@@ -192,7 +192,7 @@ impl Solver for DynamicSolver {
     fn warnings(&self, _: &Series) -> Vec<String> {
         let mut found = warnings::warnings(&self.model.quasi_static.config);
         if self.is_closed {
-            found.push("the injected phase has no way out any more: the displacement ended there".to_owned());
+            found.push("the injected phase can no longer flow out: the displacement ended there".to_owned());
         }
         found.extend(measures::films_left(&self.model));
         found

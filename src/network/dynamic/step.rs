@@ -1,7 +1,7 @@
 //! One step of backward Euler, to the next event or of the longest length allowed.
 
 use super::event_functions::{Areas, REACHED};
-use super::graph::{Graph, Link, Way};
+use super::graph::{Graph, Link, LinkKind};
 use super::known::{CapillaryLaw, Known};
 use super::{Drive, Dynamic, StepEnd};
 use crate::network::displacement::FrontId;
@@ -46,7 +46,7 @@ impl Dynamic {
     pub fn advance(&mut self, until: f64) -> Result<StepEnd, FlowError> {
         self.process_events();
         let graph = self.current_graph()?;
-        if graph.inlet.is_some_and(|inlet| !graph.laplacian.hangs_on_a_pressure(inlet)) {
+        if graph.inlet.is_some_and(|inlet| !graph.laplacian.is_connected_to_pressure(inlet)) {
             self.graph = Some(graph);
             return Ok(StepEnd::Closed);
         }
@@ -73,7 +73,7 @@ impl Dynamic {
         if let Some(graph) = self.graph.take() {
             return Ok(graph);
         }
-        self.meetings_to_come = self.find_meetings_to_come();
+        self.meetings_to_come = self.find_future_meetings();
         self.graph()
     }
 
@@ -92,10 +92,10 @@ impl Dynamic {
     pub(super) fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
-        let drop = match (link.way, self.terms.drive) {
-            (Way::Inlet, Drive::PressureDrop(pressure)) => pressure,
+        let drop = match (link.kind, self.terms.drive) {
+            (LinkKind::Inlet, Drive::PressureDrop(pressure)) => pressure,
             // Beyond the outlet the depth is the same, and menisci are flat in the plane.
-            (Way::Outlet, _) if self.is_invaded(a) => self.terms.tension * self.terms.with_depth(0.0),
+            (LinkKind::Outlet, _) if self.is_invaded(a) => self.terms.tension * self.terms.with_depth(0.0),
             _ => 0.0,
         };
         (resistance, drop)
@@ -263,20 +263,20 @@ impl Dynamic {
         let dt = trial.dt;
         let mut inflow = 0.0;
         for (link, &through) in graph.links.iter().zip(&trial.flow.through) {
-            match link.way {
-                Way::Open | Way::FillingPore(_) => {}
-                Way::Inlet => {
+            match link.kind {
+                LinkKind::Open | LinkKind::FillingPore(_) => {}
+                LinkKind::Inlet => {
                     inflow -= through;
                     let element = link.elements[0];
                     if let Some(filling) = self.state.filling[element].as_mut().filter(|_| self.is_inlet[element]) {
                         filling.area -= through * dt;
                     }
                 }
-                Way::Outlet => {
+                LinkKind::Outlet => {
                     let phase = if self.is_invaded(link.elements[0]) { 1 } else { 2 };
                     self.state.passed[phase] += through * dt;
                 }
-                Way::Meniscus((gate, end)) => {
+                LinkKind::Meniscus((gate, end)) => {
                     let Some(meniscus) = &mut self.state.menisci[gate][end] else { continue };
                     let ahead = link.elements[1];
                     if !meniscus.has_burst || (self.is_outlet[ahead] && !meniscus.has_left) {

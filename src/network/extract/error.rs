@@ -37,11 +37,11 @@ pub enum ExtractError {
     /// Regions and maxima do not correspond one to one.
     #[error(
         "no network was found that has one pore per region, near {}; shapes there may touch or nearly touch: let them overlap clearly or leave a gap",
-        list(.places)
+        list(.near)
     )]
     NoCertificate {
         /// Where, in m.
-        places: Vec<Vec2>,
+        near: Vec<Vec2>,
     },
 }
 

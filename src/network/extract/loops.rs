@@ -106,7 +106,7 @@ impl Loops {
         // The segment to the nearest wall point crosses no chord, as chords are such segments too.
         let v = x - contact.point;
         let is_wall = distance <= walls.tolerance;
-        if is_wall || !walls.is_seen(&contact, v) {
+        if is_wall || !walls.is_visible(&contact, v) {
             return;
         }
         let Some((number, shift, _)) = self.at(walls, &contact, -v) else { return };
@@ -156,9 +156,9 @@ impl Loops {
                     } else if walls.walls[wall].curve.is_closed() {
                         // A circle without chords.
                     } else {
-                        let Some(way) = perimeter.way(wall) else { break [0, 0] };
-                        steps.extend(way.parts.iter().map(|&part| Step::Side { part, shift }));
-                        (wall, shift) = (way.wall, plus(shift, way.shift));
+                        let Some(path) = perimeter.path(wall) else { break [0, 0] };
+                        steps.extend(path.parts.iter().map(|&part| Step::Side { part, shift }));
+                        (wall, shift) = (path.wall, plus(shift, path.shift));
                     }
                     next = self.after(walls, wall, None);
                     0.0

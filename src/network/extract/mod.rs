@@ -69,7 +69,7 @@ fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Netwo
         let loops = Loops::trace(walls, &points.saddles, perimeter);
         match attempt(walls, &points, &loops) {
             Attempt::Certified(network) => return Ok(network),
-            Attempt::Failed { places, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { places }),
+            Attempt::Failed { near, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { near }),
             Attempt::Failed { images, .. } => {
                 let walls_of: BTreeSet<usize> = images.iter().flatten().map(|image| image.0).collect();
                 walls_of.into_iter().for_each(|wall| density[wall] *= 2.0);

@@ -20,7 +20,7 @@ pub(super) enum Attempt {
     /// Regions without exactly one maximum.
     Failed {
         /// Where, in m.
-        places: Vec<Vec2>,
+        near: Vec<Vec2>,
         /// The walls around each of them.
         images: Vec<Vec<(usize, Shift)>>,
     },
@@ -219,14 +219,14 @@ fn is_certified(walls: &Walls, region: &Region, maxima: usize) -> bool {
 
 /// A failed certificate: the first point of each loop, and all its walls.
 fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item = &'a Loop>) -> Attempt {
-    let (mut places, mut images) = (Vec::new(), Vec::new());
+    let (mut near, mut images) = (Vec::new(), Vec::new());
     for ring in loops {
-        let place = ring.steps.iter().find_map(|step| match *step {
+        let position = ring.steps.iter().find_map(|step| match *step {
             Step::Wall { wall, from, to, .. } => Some(walls.walls[wall].curve.point(0.5 * (from + to))),
             Step::Chord { throat, .. } => Some(points.saddles[throat].center),
             Step::Side { .. } => None,
         });
-        places.extend(place);
+        near.extend(position);
         let mut around = BTreeSet::new();
         for step in &ring.steps {
             match *step {
@@ -239,5 +239,5 @@ fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item
         }
         images.push(around.into_iter().collect());
     }
-    Attempt::Failed { places, images }
+    Attempt::Failed { near, images }
 }

@@ -19,7 +19,7 @@ pub(super) struct SidePart {
 
 /// From the end of a wall along sides to the start of the next one.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Way {
+pub(super) struct SidePath {
     /// Straight parts, none empty.
     pub(crate) parts: Vec<SidePart>,
     /// The next wall.
@@ -37,7 +37,7 @@ pub(super) struct Broken {
 
 /// All paths along the sides.
 pub(super) struct Perimeter {
-    ways: Vec<Option<Way>>,
+    paths: Vec<Option<SidePath>>,
     /// Closed runs along sides without walls.
     pub(crate) uncut: Vec<Vec<SidePart>>,
 }
@@ -56,7 +56,7 @@ struct Cut {
 impl Perimeter {
     /// The paths from all walls that end at sides.
     pub(crate) fn new(walls: &Walls) -> Result<Self, Vec<Broken>> {
-        let mut all = Self { ways: vec![None; walls.walls.len()], uncut: Vec::new() };
+        let mut all = Self { paths: vec![None; walls.walls.len()], uncut: Vec::new() };
         let mut broken = Vec::new();
         let mut seen = vec![[false; 2]; walls.walls.len()];
         for run in runs(walls) {
@@ -79,7 +79,7 @@ impl Perimeter {
                 let to = reached + from - walls.walls[next.wall].curve.point(0.0);
                 let shift = [0, 1].map(|i| (to[i] / walls.domain.size()[i]).round() as i32);
                 let parts = parts.into_iter().map(|p| SidePart { from: p.from + from, to: p.to + from, ..p }).collect();
-                all.ways[cut.wall] = Some(Way { parts, wall: next.wall, shift });
+                all.paths[cut.wall] = Some(SidePath { parts, wall: next.wall, shift });
             }
         }
         for (wall, seen) in walls.walls.iter().zip(&seen).filter(|(wall, _)| !wall.curve.is_closed()) {
@@ -94,8 +94,8 @@ impl Perimeter {
     }
 
     /// The path from the end of a wall.
-    pub(crate) fn way(&self, wall: usize) -> Option<&Way> {
-        self.ways[wall].as_ref()
+    pub(crate) fn path(&self, wall: usize) -> Option<&SidePath> {
+        self.paths[wall].as_ref()
     }
 }
 

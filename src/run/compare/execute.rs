@@ -39,7 +39,7 @@ pub(crate) fn execute(
     let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
     let _claim = match task.mode {
         Mode::New => folder::create(task.folder),
-        Mode::Resume => folder::take_up(task.folder, &task.folder.join(direct::RUN)),
+        Mode::Resume => folder::reopen(task.folder, &task.folder.join(direct::RUN)),
     }
     .map_err(RunError::from)?;
     let (found, status, error) = match side_by_side::compare(task, interrupt, watcher) {
@@ -86,7 +86,7 @@ fn report(task: &Task<'_>, resolved: &str, found: Option<&Comparison>) -> Report
         expectations: Vec::new(),
         numbers: numbers::numbers(pair.direct, length, speed),
         length_of_numbers: length,
-        depth: pair.direct.about_depth(),
+        depth: pair.direct.depth_text(),
         case: pair.direct.clone(),
         resolved_case: resolved.to_owned(),
         machine: Machine::present(),

@@ -55,7 +55,7 @@ impl States {
             kept += line.len();
             records.push((line_of_file.time_s, line_of_file.record(grid, &path)?));
         }
-        let mark = Mark::behind(&bytes[..kept]);
+        let mark = Mark::after(&bytes[..kept]);
         Ok(Self { journal: Journal::resume(path, mark)?, records })
     }
 

@@ -3,7 +3,7 @@
 
 use super::kept::{CLOSEST, EQUAL, SAMPLING, apart, deepest};
 use super::lattice::{Lattice, each_with};
-use super::places::Places;
+use super::positions::Positions;
 use super::region::Region;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::geometry::{Geometry, Wall};
@@ -25,7 +25,7 @@ impl<'a> Interface<'a> {
     pub(crate) fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
         let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
-            .where_it(move |closest, normal| is_interface(closest, normal, pore, spacing));
+            .restricted(move |closest, normal| is_interface(closest, normal, pore, spacing));
         Self { region, pore, surface }
     }
 
@@ -34,11 +34,11 @@ impl<'a> Interface<'a> {
         &self.surface
     }
 
-    /// Makes room in `places` for layers beside the interface, and returns these: particles half a spacing from it on both sides, evenly spaced along
+    /// Makes room in `positions` for layers beside the interface, and returns these: particles half a spacing from it on both sides, evenly spaced along
     /// it. Of the other fluid particles on each side those farthest from the interface are kept, as many as the area allows besides the layer.
     ///
-    /// Where the interface is aligned with the lattice, or a phase is too small for a layer, `places` is unchanged and there are no layers.
-    pub(crate) fn make_room(&self, lattice: &Lattice, domain: &Domain, places: &mut Places) -> Vec<Vec2> {
+    /// Where the interface is aligned with the lattice, or a phase is too small for a layer, `positions` is unchanged and there are no layers.
+    pub(crate) fn make_room(&self, lattice: &Lattice, domain: &Domain, positions: &mut Positions) -> Vec<Vec2> {
         if self.surface.is_empty() {
             return Vec::new();
         }
@@ -46,7 +46,7 @@ impl<'a> Interface<'a> {
         let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(depth * spacing, lattice, domain));
         let within = (self.region.area().unwrap_or_else(|| self.area(lattice)) / lattice.volume()).round() as usize;
         let core = within.checked_sub(inner.len());
-        let rest = places.fluid.len().checked_sub(within + outer.len());
+        let rest = positions.fluid.len().checked_sub(within + outer.len());
         let (Some(core), Some(rest), false) = (core, rest, inner.is_empty() || outer.is_empty()) else {
             return Vec::new();
         };
@@ -55,13 +55,13 @@ impl<'a> Interface<'a> {
             Some(_) => f64::INFINITY,
             None => self.region.signed_distance(x).abs().max(DOUBTFUL * spacing),
         };
-        let found = each_with(places.fluid.drain(..), |x| (far(x), self.region.holds(x)));
+        let found = each_with(positions.fluid.drain(..), |x| (far(x), self.region.contains(x)));
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
         for (x, (far, is_inside)) in found {
             if is_inside { &mut inside } else { &mut outside }.push((far, x));
         }
         let farthest = |points, count| deepest(points, count, EQUAL * spacing);
-        places.fluid = [farthest(inside, core), farthest(outside, rest)].concat();
+        positions.fluid = [farthest(inside, core), farthest(outside, rest)].concat();
         [inner, outer].concat()
     }
 
@@ -76,7 +76,7 @@ impl<'a> Interface<'a> {
                 let along = (1.0 - across * across).max(0.0).sqrt();
                 wall.distance > 0.5 * spacing * (1.0 - along)
             };
-            lattice.holds(x) && has_room()
+            lattice.contains(x) && has_room()
         };
         let lines = self.surface.offset_curves(depth, SAMPLING * spacing, is_in_pore);
         let points: Vec<Vec2> = lines.iter().flat_map(|line| line.every(spacing)).collect();

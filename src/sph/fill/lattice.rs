@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::math::{Bounds, Vec2};
-use crate::sph::fill::places::Places;
+use crate::sph::fill::positions::Positions;
 use crate::sph::kernel::WendlandC2;
 
 /// A square lattice commensurate with the box: an integer number of cells along each side, a particle in the center of each.
@@ -55,7 +55,7 @@ impl Lattice {
     }
 
     /// Whether `x` (m) is within the box.
-    pub(super) fn holds(&self, x: Vec2) -> bool {
+    pub(super) fn contains(&self, x: Vec2) -> bool {
         self.bounds.contains(x)
     }
 
@@ -112,16 +112,16 @@ pub fn on_lattice(
     support: f64,
     walls: [bool; 4],
     signed_distance: impl Fn(Vec2) -> f64 + Sync,
-) -> Places {
-    let mut places = Places::default();
+) -> Positions {
+    let mut positions = Positions::default();
     for (x, d) in each_with(lattice.points(support, walls), signed_distance) {
-        if d > 0.0 && lattice.holds(x) {
-            places.fluid.push(x);
+        if d > 0.0 && lattice.contains(x) {
+            positions.fluid.push(x);
         } else if d <= 0.0 && d > -support {
-            places.push_wall(x, -d);
+            positions.push_wall(x, -d);
         }
     }
-    places
+    positions
 }
 
 #[cfg(test)]

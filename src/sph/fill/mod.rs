@@ -3,13 +3,13 @@
 mod interface;
 mod kept;
 mod lattice;
-mod places;
+mod positions;
 mod region;
 mod walls;
 
 pub(crate) use interface::Interface;
 pub use lattice::{Lattice, on_lattice};
-pub use places::Places;
+pub use positions::Positions;
 pub(crate) use region::Region;
 pub(crate) use walls::{Room, along_walls};
 

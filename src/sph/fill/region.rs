@@ -33,7 +33,7 @@ impl Region {
     }
 
     /// Whether a point of the pore (m) lies in the region.
-    pub(crate) fn holds(&self, x: Vec2) -> bool {
+    pub(crate) fn contains(&self, x: Vec2) -> bool {
         self.whole.as_ref().unwrap_or(&self.surface).signed_distance(x) < 0.0
     }
 
@@ -51,7 +51,7 @@ impl Region {
 
     fn unless_behind_wall(&self, distance: f64, x: Vec2) -> f64 {
         match &self.whole {
-            Some(_) if self.holds(x) != (distance < 0.0) => f64::INFINITY.copysign(-distance),
+            Some(_) if self.contains(x) != (distance < 0.0) => f64::INFINITY.copysign(-distance),
             _ => distance,
         }
     }

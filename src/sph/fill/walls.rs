@@ -2,7 +2,7 @@
 
 use super::kept::{CLOSEST, EQUAL, SAMPLING, apart, deepest};
 use super::lattice::{Lattice, each_with};
-use super::places::Places;
+use super::positions::Positions;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
@@ -31,31 +31,31 @@ pub(crate) fn along_walls(
     unfitted: &UnfittedSurface,
     signed_distance: impl Fn(Vec2) -> f64 + Sync,
     pore_area: f64,
-) -> Places {
+) -> Positions {
     let &Room { lattice, domain, support, walls } = room;
     let spacing = lattice.step.product().sqrt();
-    let mut places = Places::default();
+    let mut positions = Positions::default();
     let mut doubtful: Vec<(f64, Vec2)> = Vec::new();
     for (x, (d, own)) in each_with(lattice.points(support, walls), |x| (signed_distance(x), unfitted.own(x))) {
-        if own && d.abs() < DOUBTFUL * spacing && lattice.holds(x) {
+        if own && d.abs() < DOUBTFUL * spacing && lattice.contains(x) {
             doubtful.push((d, x));
-        } else if d > 0.0 && lattice.holds(x) {
-            places.fluid.push(x);
+        } else if d > 0.0 && lattice.contains(x) {
+            positions.fluid.push(x);
         } else if d <= 0.0 && d > -support && !own {
-            places.push_wall(x, -d);
+            positions.push_wall(x, -d);
         }
     }
     let wanted = (pore_area / (spacing * spacing)).round() as usize;
-    places.fluid.extend(deepest(doubtful, wanted.saturating_sub(places.fluid.len()), EQUAL * spacing));
+    positions.fluid.extend(deepest(doubtful, wanted.saturating_sub(positions.fluid.len()), EQUAL * spacing));
     let extent = lattice.extent(support, walls);
     let mut depth = 0.5 * spacing;
     while depth < support {
         let lines = unfitted.offset_curves(depth, SAMPLING * spacing, |x| extent.contains(x));
-        lines.iter().flat_map(|line| line.every(spacing)).for_each(|x| places.push_wall(x, depth));
+        lines.iter().flat_map(|line| line.every(spacing)).for_each(|x| positions.push_wall(x, depth));
         depth += spacing;
     }
-    let kept = apart(&places.walls, domain, CLOSEST * spacing);
-    places.walls = kept.iter().map(|a| places.walls[*a]).collect();
-    places.depth = kept.iter().map(|a| places.depth[*a]).collect();
-    places
+    let kept = apart(&positions.walls, domain, CLOSEST * spacing);
+    positions.walls = kept.iter().map(|a| positions.walls[*a]).collect();
+    positions.depth = kept.iter().map(|a| positions.depth[*a]).collect();
+    positions
 }

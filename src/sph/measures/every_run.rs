@@ -45,18 +45,18 @@ fn smallest_distance(flow: &Flow) -> f64 {
 /// The larger of the measured and the requested contact angle in degrees; 0 without one.
 fn flattest_angle(s: &Subject) -> f64 {
     let requested = s.flow.config.method.wetting.map_or(0.0, |model| model.static_angle().to_degrees());
-    requested.max(s.seen.angle().mean_deg)
+    requested.max(s.observed.angle().mean_deg)
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
     // Inflow and outflow through open sides are not drift.
-    let (net_inflow, areas) = (open::net(s.flow), s.seen.areas);
+    let (net_inflow, areas) = (open::net(s.flow), s.observed.areas);
     let kept = PhaseAreas { wetting: areas.wetting - net_inflow[0], non_wetting: areas.non_wetting - net_inflow[1] };
     let drift = kept.drift_since(&s.start);
     let drift = drift.iter().map(|d| d.abs()).filter(|d| d.is_finite()).fold(0.0, f64::max);
-    let pressure = &s.seen.capillary_pressure;
+    let (pressure, blobs) = (&s.observed.capillary_pressure, s.observed.wetting_blobs.len() as f64);
     let mut found = vec![
-        measure("saturation", s.seen.areas.saturation(), "", None, "area of the wetting phase over that of both"),
+        measure("saturation", s.observed.areas.saturation(), "", None, "area of the wetting phase over that of both"),
         measure(
             "area-drift",
             drift,
@@ -75,26 +75,26 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             )),
             "mean pressure of non-wetting minus wetting particles farther than 3h from the interface, referred to the mean height of the interface",
         ),
-        measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
+        measure("interface-length-m", s.observed.interface_length(), "m", None, "length of the c = 0.5 contour"),
         measure(
             "wetted-length-m",
-            s.seen.wetted_length,
+            s.observed.wetted_length,
             "m",
             None,
             "length of wall where the smoothed color is above 0.5",
         ),
-        measure("wetting-blobs", s.seen.wetting_blobs.len() as f64, "", None, "connected parts, links up to 1.6 dx"),
+        measure("wetting-blobs", blobs, "", None, "connected parts, links up to 1.6 dx"),
     ];
     found.push(measure(
         "below-resolution-share",
-        s.seen.thin(s.flow).share,
+        s.observed.thin(s.flow).share,
         "",
         None,
         "particles where their phase is thinner than about three particles, over the particles of the smaller phase",
     ));
     found.push(measure(
         "small-pieces",
-        s.seen.small_pieces as f64,
+        s.observed.small_pieces as f64,
         "",
         None,
         "connected parts of either phase with fewer than 20 particles",
@@ -102,11 +102,11 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     let most = most_small_pieces(s.series).map_or(f64::NAN, |(most, _)| most);
     found.push(measure("most-small-pieces", most, "", None, "largest number of small pieces at any record"));
     if s.flow.config.method.wetting.is_some() {
-        let angle = s.seen.angle();
+        let angle = s.observed.angle();
         let method = how_the_angle_was_measured(s);
         found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
         let models = s
-            .seen
+            .observed
             .contact_lines
             .iter()
             .filter_map(|line| s.flow.config.wall_properties.model(&s.flow.config.method, line.position));
@@ -122,7 +122,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
 
 /// How the contact angle was measured, or why it was not.
 fn how_the_angle_was_measured(s: &Subject) -> String {
-    let angle = s.seen.angle();
+    let angle = s.observed.angle();
     if angle.measured > 0 {
         let shape = if s.flow.config.method.gravity == Vec2::zeros() { "circles" } else { "arcs of Young and Laplace" };
         return format!(
@@ -130,7 +130,7 @@ fn how_the_angle_was_measured(s: &Subject) -> String {
             angle.measured, angle.failed, angle.spread_deg
         );
     }
-    match s.seen.contact_lines.iter().find_map(|line| line.problem.as_ref()) {
+    match s.observed.contact_lines.iter().find_map(|line| line.problem.as_ref()) {
         Some(problem) => format!("none of the {} contact lines has one: {problem}", angle.failed),
         None => "the interface meets no wall".into(),
     }

@@ -33,9 +33,9 @@ fn is_displacement(flow: &Flow) -> bool {
 /// The invading phase, of which more came in, and the number of the side through which most of it did.
 fn entering(flow: &Flow) -> (usize, usize) {
     let fluxes = &flow.state.fluxes;
-    let (came, _) = fluxes.totals();
-    let phase = usize::from(came[1] > came[0]);
-    let entry = (0..fluxes.came.len()).max_by_key(|number| fluxes.came[*number][phase]).unwrap_or(0);
+    let (inflow, _) = fluxes.totals();
+    let phase = usize::from(inflow[1] > inflow[0]);
+    let entry = (0..fluxes.inflow.len()).max_by_key(|number| fluxes.inflow[*number][phase]).unwrap_or(0);
     (phase, entry)
 }
 
@@ -44,17 +44,17 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
         return vec![];
     }
-    let (came, left) = flow.state.fluxes.totals();
+    let (inflow, outflow) = flow.state.fluxes.totals();
     let area = |count: u64| count as f64 * flow.config.method.volume;
     let mut columns = vec![
         // Area of the wetting phase that entered, counted in particles
-        ("wetting_in_m2", area(came[0])),
+        ("wetting_in_m2", area(inflow[0])),
         // Area of the wetting phase that left, counted in particles
-        ("wetting_out_m2", area(left[0])),
+        ("wetting_out_m2", area(outflow[0])),
         // Area of the non-wetting phase that entered, counted in particles
-        ("non_wetting_in_m2", area(came[1])),
+        ("non_wetting_in_m2", area(inflow[1])),
         // Area of the non-wetting phase that left, counted in particles
-        ("non_wetting_out_m2", area(left[1])),
+        ("non_wetting_out_m2", area(outflow[1])),
     ];
     let names = [
         (
@@ -75,19 +75,19 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
         let [high, low] = [Some(side), opposite].map(|side| side.and_then(OpenSide::given_pressure).unwrap_or(0.0));
         columns.push((PRESSURE_DIFFERENCE, high - low));
         let phase = usize::from(side.main != Phase::Wetting);
-        let through = opposite.map_or(0, |opposite| flow.state.fluxes.left[opposite.number][phase]);
+        let through = opposite.map_or(0, |opposite| flow.state.fluxes.outflow[opposite.number][phase]);
         columns.push((PASSED, area(through)));
     } else if is_displacement(flow) {
         let (phase, entry) = entering(flow);
-        let others = (0..flow.state.fluxes.left.len()).filter(|number| *number != entry);
-        columns.push((PASSED, area(others.map(|number| flow.state.fluxes.left[number][phase]).sum())));
+        let others = (0..flow.state.fluxes.outflow.len()).filter(|number| *number != entry);
+        columns.push((PASSED, area(others.map(|number| flow.state.fluxes.outflow[number][phase]).sum())));
     }
     if let Some(pressure) = driving_pressure(flow) {
         columns.push((DRIVING_PRESSURE, pressure));
     }
     for (side, given) in flow.view().given_flows() {
         let (rate, gradient) = names[side.axis()];
-        let sign = side.inwards();
+        let sign = side.inward_sign();
         columns.extend([(rate, sign * given.rate), (gradient, sign * given.gradient)]);
     }
     columns
@@ -100,7 +100,7 @@ fn driving_pressure(flow: &Flow) -> Option<f64> {
     let sides = &flow.config.open.sides;
     let outlet = sides.iter().find_map(OpenSide::given_pressure)?;
     let particles = &flow.state.particles;
-    let lies_at = |side: &OpenSide, a: usize| side.beyond(particles.position[a]).abs() < DEPTH * side.row_spacing;
+    let lies_at = |side: &OpenSide, a: usize| side.overshoot(particles.position[a]).abs() < DEPTH * side.row_spacing;
     let driven: Vec<&OpenSide> = sides.iter().filter(|side| side.given_pressure().is_none()).collect();
     let there = (0..particles.moving()).filter(|&a| driven.iter().any(|side| lies_at(side, a)));
     let (sum, count) = there.fold((0.0, 0_usize), |(sum, count), a| (sum + particles.pressure[a], count + 1));
@@ -109,8 +109,8 @@ fn driving_pressure(flow: &Flow) -> Option<f64> {
 
 /// Net inflow: areas in m² of the wetting and the non-wetting phase that came in minus those that left.
 pub(crate) fn net(flow: &Flow) -> [f64; 2] {
-    let (came, left) = flow.state.fluxes.totals();
-    [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.config.method.volume)
+    let (inflow, outflow) = flow.state.fluxes.totals();
+    [0, 1].map(|i| (inflow[i] as f64 - outflow[i] as f64) * flow.config.method.volume)
 }
 
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
@@ -119,14 +119,14 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
         return vec![];
     }
     let (fluxes, fluids) = (&flow.state.fluxes, flow.state.particles.fluids);
-    let (came, left) = fluxes.totals();
+    let (inflow, outflow) = fluxes.totals();
     let inside = BoundaryFluxes::count(&flow.state.particles.phase[..fluids]);
-    let start: u64 = fluxes.at_start.iter().sum();
-    let missing = |i: usize| (fluxes.at_start[i] as f64 + came[i] as f64 - left[i] as f64 - inside[i] as f64).abs();
+    let start: u64 = fluxes.initial.iter().sum();
+    let missing = |i: usize| (fluxes.initial[i] as f64 + inflow[i] as f64 - outflow[i] as f64 - inside[i] as f64).abs();
     let error = [0, 1].map(missing).into_iter().fold(0.0, f64::max) / start as f64;
     let net: f64 = net(flow).iter().sum();
     let area = |of: &crate::analysis::phases::PhaseAreas| of.wetting + of.non_wetting;
-    let drift = (area(&s.seen.areas) - area(&s.start) - net) / area(&s.start);
+    let drift = (area(&s.observed.areas) - area(&s.start) - net) / area(&s.start);
     let mut found = vec![
         measure(
             "balance-error",
@@ -223,7 +223,7 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
         let requested = side.given_pressure().is_none().then(|| side.flow_rate());
         // Given velocities: by the displacements of the rows, since particle counts change by whole layers.
         let counted =
-            || (count(&fluxes.came, side.number) - count(&fluxes.left, side.number)) * flow.config.method.volume;
+            || (count(&fluxes.inflow, side.number) - count(&fluxes.outflow, side.number)) * flow.config.method.volume;
         (if requested.is_some() { fluxes.passed[side.number] } else { counted() } / time, requested)
     };
     let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));

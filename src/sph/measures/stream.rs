@@ -38,11 +38,11 @@ pub(crate) fn given(flow: &Flow, wall: Vec2) -> Vec2 {
     let sum = |of: &dyn Fn(&OpenSide) -> Vec2| open.sides.iter().chain(&open.through).map(of).sum::<Vec2>();
     let size = flow.config.domain.bounds.size();
     let area = p.fluids as f64 * flow.config.method.volume;
-    let passing = sum(&|side: &OpenSide| side.flow_rate() * size[side.axis()] / area * side.way());
+    let passing = sum(&|side: &OpenSide| side.flow_rate() * size[side.axis()] / area * side.inward());
     if passing != Vec2::zeros() {
         return passing - wall;
     }
-    let fall = sum(&|side: &OpenSide| side.given_pressure().unwrap_or(0.0) * side.way());
+    let fall = sum(&|side: &OpenSide| side.given_pressure().unwrap_or(0.0) * side.inward());
     if fall != Vec2::zeros() {
         return fall;
     }

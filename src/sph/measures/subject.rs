@@ -21,7 +21,7 @@ pub struct Subject<'a> {
     /// The flow at its end.
     pub flow: &'a Flow,
     /// Interface, contact lines and phases observed in it.
-    pub seen: &'a Observation,
+    pub observed: &'a Observation,
     /// Areas of the phases at time zero.
     pub start: PhaseAreas,
     /// All records.

@@ -9,15 +9,15 @@ use crate::sph::particles::Phase;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryFluxes {
     /// Particles that came in.
-    pub came: [[u64; 2]; 4],
+    pub inflow: [[u64; 2]; 4],
     /// Particles that left.
-    pub left: [[u64; 2]; 4],
+    pub outflow: [[u64; 2]; 4],
     /// Area in m² that came in through each side with a given velocity, from the displacements of the particles in its buffer.
     pub passed: [f64; 4],
     /// Identifier of the next particle.
     pub next_id: u32,
     /// Fluid particles at time zero, by phase.
-    pub at_start: [u64; 2],
+    pub initial: [u64; 2],
 }
 
 fn index(phase: Phase) -> usize {
@@ -28,7 +28,7 @@ impl BoundaryFluxes {
     /// The counts at time zero.
     pub(crate) fn new(phases: &[Phase], next_id: u32) -> Self {
         let mut fluxes = Self { next_id, ..Self::default() };
-        fluxes.at_start = Self::count(phases);
+        fluxes.initial = Self::count(phases);
         fluxes
     }
 
@@ -40,23 +40,23 @@ impl BoundaryFluxes {
     }
 
     /// Counts a particle that came in through `side`.
-    pub(crate) fn comes(&mut self, side: usize, phase: Phase) {
-        self.came[side][index(phase)] += 1;
+    pub(crate) fn count_inflow(&mut self, side: usize, phase: Phase) {
+        self.inflow[side][index(phase)] += 1;
     }
 
     /// Counts a particle that left through `side`.
-    pub(crate) fn leaves(&mut self, side: usize, phase: Phase) {
-        self.left[side][index(phase)] += 1;
+    pub(crate) fn count_outflow(&mut self, side: usize, phase: Phase) {
+        self.outflow[side][index(phase)] += 1;
     }
 
     /// Numbers of particles of each phase that came in and that left, over all sides.
     pub fn totals(&self) -> ([u64; 2], [u64; 2]) {
         let sum = |counts: &[[u64; 2]; 4]| [0, 1].map(|phase| counts.iter().map(|side| side[phase]).sum());
-        (sum(&self.came), sum(&self.left))
+        (sum(&self.inflow), sum(&self.outflow))
     }
 
     /// The identifier of a new particle.
-    pub(crate) fn name(&mut self) -> u32 {
+    pub(crate) fn new_id(&mut self) -> u32 {
         let id = self.next_id;
         self.next_id = self.next_id.wrapping_add(1);
         id

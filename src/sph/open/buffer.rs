@@ -65,7 +65,7 @@ fn rows(side: &OpenSide, around: &Around) -> Vec<Row> {
             let count = ((opening.from - before) / spacing).round().max(1.0) as usize;
             rows.extend(equal(before, opening.from, count).map(solid));
         }
-        let (step, count) = (side.step_in(opening), side.count_in(opening));
+        let (step, count) = (side.spacing_in(opening), side.count_in(opening));
         let open = |y: f64| Row { y, step, count, is_open: true };
         rows.extend(equal(opening.from, opening.to, opening.rows(side.row_spacing)).map(open));
     }
@@ -83,12 +83,12 @@ pub(crate) fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: 
             let mut y = Vec2::zeros();
             y[along] = row.y;
             for i in 0..row.count {
-                let x = side.placed(y, (i as f64 + 0.5) * row.step);
+                let x = side.projected(y, (i as f64 + 0.5) * row.step);
                 let d = (around.signed_distance)(x);
                 if row.is_open {
                     buffer.push(particles.len());
-                    let at_side = side.placed(x, -0.5 * around.step[axis]);
-                    let phase = side.enters.unwrap_or_else(|| (around.phase)(at_side));
+                    let at_side = side.projected(x, -0.5 * around.step[axis]);
+                    let phase = side.inflow_phase.unwrap_or_else(|| (around.phase)(at_side));
                     particles.append(phase, x);
                 } else if d > -around.support {
                     walls.push(particles.len());
@@ -105,9 +105,9 @@ pub(crate) fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: 
 /// Adds the area that came in through sides with a given velocity while the particles of their buffers moved from the positions `from` (m).
 pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes) {
     for b in particles.buffer() {
-        let Some(side) = sides.iter().find(|side| side.beyond(from[b]) >= 0.0) else { continue };
+        let Some(side) = sides.iter().find(|side| side.overshoot(from[b]) >= 0.0) else { continue };
         if side.given_pressure().is_none() {
-            let inwards = side.beyond(from[b]) - side.beyond(particles.position[b]);
+            let inwards = side.overshoot(from[b]) - side.overshoot(particles.position[b]);
             fluxes.passed[side.number] += inwards * side.cell / side.depth_at(from[b]);
         }
     }
@@ -117,9 +117,9 @@ pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSid
 pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes, spacing: f64) {
     let (mut fluid, mut buffer, mut entered) = (Vec::new(), Vec::new(), Vec::new());
     for a in 0..particles.fluids {
-        match sides.iter().find(|side| side.beyond(particles.position[a]) > 0.0) {
+        match sides.iter().find(|side| side.overshoot(particles.position[a]) > 0.0) {
             Some(side) => {
-                fluxes.leaves(side.number, particles.phase[a]);
+                fluxes.count_outflow(side.number, particles.phase[a]);
                 buffer.push(a);
             }
             None => fluid.push(a),
@@ -127,10 +127,12 @@ pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &m
     }
     for b in particles.buffer() {
         let x = particles.position[b];
-        let Some(side) = sides.iter().max_by(|s, t| s.beyond(x).total_cmp(&t.beyond(x))) else { continue };
-        let beyond = side.beyond(x);
+        let Some(side) = sides.iter().max_by(|s, t| s.overshoot(x).total_cmp(&t.overshoot(x))) else {
+            continue;
+        };
+        let beyond = side.overshoot(x);
         if beyond < 0.0 {
-            fluxes.comes(side.number, particles.phase[b]);
+            fluxes.count_inflow(side.number, particles.phase[b]);
             entered.push((b, side));
         } else if beyond < side.depth_at(x) {
             buffer.push(b);
@@ -142,11 +144,11 @@ pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &m
     for (b, side) in entered {
         fluid.push(b);
         let x = particles.position[b];
-        let end = side.placed(x, side.beyond(x) + side.depth_at(x));
+        let end = side.projected(x, side.overshoot(x) + side.depth_at(x));
         let room = ROOM * spacing;
         if buffer.iter().all(|&c| (particles.position[c] - end).norm_squared() > room * room) {
             buffer.push(particles.len());
-            particles.append_like(b, side.enters.unwrap_or(particles.phase[b]), end, fluxes.name());
+            particles.append_like(b, side.inflow_phase.unwrap_or(particles.phase[b]), end, fluxes.new_id());
         }
     }
     // New particles come after the walls in memory until `arrange`.

@@ -27,7 +27,7 @@ impl InteriorPoints {
     pub(crate) fn new(particles: &Particles, sides: &[OpenSide], domain: &Domain, kernel: &WendlandC2) -> Self {
         let mut interior = Self { start: vec![0], terms: Vec::new() };
         let reach = (2.0 * INSET + 1.0) * kernel.support();
-        let is_near = |x: Vec2| sides.iter().any(|side| side.given_pressure().is_some() && -side.beyond(x) < reach);
+        let is_near = |x: Vec2| sides.iter().any(|side| side.given_pressure().is_some() && -side.overshoot(x) < reach);
         let fluid: Vec<u32> =
             (0..particles.fluids).filter(|&a| is_near(particles.position[a])).map(|a| a as u32).collect();
         let points: Vec<Vec2> = fluid.iter().map(|&a| particles.position[a as usize]).collect();
@@ -35,8 +35,8 @@ impl InteriorPoints {
         let mut near = Vec::new();
         for b in particles.buffer() {
             let x = particles.position[b];
-            if let Some(side) = sides.iter().find(|side| side.beyond(x) >= 0.0 && side.given_pressure().is_some()) {
-                let inside = side.placed(x, -INSET * kernel.h);
+            if let Some(side) = sides.iter().find(|side| side.overshoot(x) >= 0.0 && side.given_pressure().is_some()) {
+                let inside = side.projected(x, -INSET * kernel.h);
                 near.clear();
                 cells.visit_near(inside, |i, r| {
                     let w = kernel.w(r.norm());
@@ -77,10 +77,10 @@ impl InteriorPoints {
     ) {
         for (i, b) in particles.buffer().enumerate() {
             let x = particles.position[b];
-            let Some(side) = sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
+            let Some(side) = sides.iter().find(|side| side.overshoot(x) >= 0.0) else { continue };
             field[b] = given(side, x).unwrap_or_else(|| {
                 let inside = self.value(i, field).unwrap_or_default();
-                side.velocity(side.inwards() * inside[side.axis()])
+                side.velocity(side.inward_sign() * inside[side.axis()])
             });
         }
     }

@@ -30,7 +30,7 @@ impl Prescribed {
             let Drive::Pressure(given) = side.drive else { continue };
             sum += given;
             count += 1.0;
-            let beyond = |a: usize| side.beyond(particles.position[a]);
+            let beyond = |a: usize| side.overshoot(particles.position[a]);
             let buffer: Vec<usize> = particles.buffer().filter(|&b| beyond(b) >= 0.0).collect();
             let (total, found) = buffer
                 .iter()

@@ -26,7 +26,7 @@ pub struct OpenSide {
     /// The condition.
     pub drive: Drive,
     /// The phase that comes in; `None`: each row of particles continues with its own.
-    pub enters: Option<Phase>,
+    pub inflow_phase: Option<Phase>,
     /// The phase to which the given pressure applies.
     pub main: Phase,
     /// The openings between solids, each with room for at least one row of particles.
@@ -73,26 +73,26 @@ impl OpenSide {
     }
 
     /// Sign of the inward direction along the axis.
-    pub(crate) fn inwards(&self) -> f64 {
+    pub(crate) fn inward_sign(&self) -> f64 {
         if self.number.is_multiple_of(2) { 1.0 } else { -1.0 }
     }
 
     /// Distance of `x` beyond the side in m; negative inside.
-    pub(crate) fn beyond(&self, x: Vec2) -> f64 {
-        self.inwards() * (self.at - x[self.axis()])
+    pub(crate) fn overshoot(&self, x: Vec2) -> f64 {
+        self.inward_sign() * (self.at - x[self.axis()])
     }
 
     /// `x` projected along the normal to the distance `beyond` (m) beyond the side.
-    pub(crate) fn placed(&self, x: Vec2, beyond: f64) -> Vec2 {
+    pub(crate) fn projected(&self, x: Vec2, beyond: f64) -> Vec2 {
         let mut y = x;
-        y[self.axis()] = self.at - self.inwards() * beyond;
+        y[self.axis()] = self.at - self.inward_sign() * beyond;
         y
     }
 
     /// The velocity along the normal with the inward speed `inwards` in m/s.
     pub(crate) fn velocity(&self, inwards: f64) -> Vec2 {
         let mut v = Vec2::zeros();
-        v[self.axis()] = self.inwards() * inwards;
+        v[self.axis()] = self.inward_sign() * inwards;
         v
     }
 
@@ -102,7 +102,7 @@ impl OpenSide {
     }
 
     /// Spacing in m of particles along a row of an opening: rows of equal width fill it, and each particle occupies the area `cell`.
-    pub(crate) fn step_in(&self, opening: &Opening) -> f64 {
+    pub(crate) fn spacing_in(&self, opening: &Opening) -> f64 {
         self.cell * opening.rows(self.row_spacing).max(1) as f64 / opening.width()
     }
 
@@ -110,12 +110,12 @@ impl OpenSide {
     pub(crate) fn count_in(&self, opening: &Opening) -> usize {
         /// Tolerance with which a number counts as an integer.
         const ROUNDING: f64 = 1e-9;
-        (self.depth / self.step_in(opening) - ROUNDING).ceil() as usize
+        (self.depth / self.spacing_in(opening) - ROUNDING).ceil() as usize
     }
 
     /// Depth of the buffer in m at `x`: an integer number of particles along the rows there.
     pub(crate) fn depth_at(&self, x: Vec2) -> f64 {
-        let of = |opening: &Opening| self.count_in(opening) as f64 * self.step_in(opening);
+        let of = |opening: &Opening| self.count_in(opening) as f64 * self.spacing_in(opening);
         self.opening(x[1 - self.axis()]).map_or(self.depth, of)
     }
 

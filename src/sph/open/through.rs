@@ -38,7 +38,7 @@ pub(crate) struct Moved<'a> {
 
 impl OpenSide {
     /// The unit vector inwards.
-    pub(crate) fn way(&self) -> Vec2 {
+    pub(crate) fn inward(&self) -> Vec2 {
         self.velocity(1.0)
     }
 
@@ -65,18 +65,18 @@ impl GivenFlow {
         phase: &mut [Phase],
         fluxes: &mut BoundaryFluxes,
     ) {
-        let (inward, period) = (side.way(), domain.bounds.size()[side.axis()]);
+        let (inward, period) = (side.inward(), domain.bounds.size()[side.axis()]);
         let mut displacement = 0.0;
         for (a, (&from, &to)) in moved.from.iter().zip(moved.to).enumerate() {
             displacement += domain.separation(to, from).dot(&inward);
-            let crossing = side.beyond(to) - side.beyond(from);
+            let crossing = side.overshoot(to) - side.overshoot(from);
             if crossing.abs() > 0.5 * period {
                 let inwards = crossing > 0.0;
-                fluxes.leaves(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
-                if let (true, Some(enters)) = (inwards, side.enters) {
+                fluxes.count_outflow(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
+                if let (true, Some(enters)) = (inwards, side.inflow_phase) {
                     phase[a] = enters;
                 }
-                fluxes.comes(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
+                fluxes.count_inflow(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
             }
         }
         let passed = moved.volume * displacement / period;

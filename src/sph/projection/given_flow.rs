@@ -65,7 +65,7 @@ impl View<'_, Fields> {
             acceleration = pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, fluids);
             pressure_gradient::correct_gradient(moment, &mut acceleration);
         } else {
-            acceleration = pressure_gradient::down(pairs, &f.volume, &f.density, &extended, fluids);
+            acceleration = pressure_gradient::descent(pairs, &f.volume, &f.density, &extended, fluids);
             acceleration.iter_mut().zip(&*f.density).for_each(|(by, density)| *by += axis / *density);
         }
         Response { potential, acceleration }
@@ -73,7 +73,7 @@ impl View<'_, Fields> {
 
     /// Whether the fluid percolates through the period along the axis of the side.
     fn is_open(&self, side: &OpenSide) -> bool {
-        let (inward, fluids) = (side.way(), self.state.particles.fluids);
+        let (inward, fluids) = (side.inward(), self.state.particles.fluids);
         let half = 0.5 * self.config.domain.bounds.size()[side.axis()];
         let reach = NEXT * self.config.method.spacing;
         // Unwrapped coordinate along the axis of each particle relative to the first of its component, along the connecting particles.
@@ -132,7 +132,7 @@ impl Flow {
 
 /// The inward flow rate in m²/s through the side of fluid particles with the given velocities (m/s), averaged over the period.
 fn flow_rate(config: &Configuration, side: &OpenSide, velocity: &[Vec2]) -> f64 {
-    let (inward, period) = (side.way(), config.domain.bounds.size()[side.axis()]);
+    let (inward, period) = (side.inward(), config.domain.bounds.size()[side.axis()]);
     config.method.volume / period * total(velocity.len(), |a| velocity[a].dot(&inward))
 }
 

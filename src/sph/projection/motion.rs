@@ -59,7 +59,7 @@ impl View<'_, Fields> {
                     what: format!("a {phase} particle reached {:.3e} m/s", v.norm()),
                     time: self.state.time,
                     step: self.state.steps,
-                    place: self.state.particles.position[a],
+                    position: self.state.particles.position[a],
                 });
             }
             position.push(self.config.domain.wrapped(self.state.particles.position[a] + by));
@@ -145,8 +145,8 @@ fn set_back(config: &Configuration, wall_distance: &[f64], position: &mut [Vec2]
     }
     // No fluid leaves through a side with a given velocity: particles shifted there are set back.
     for side in config.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
-        for x in position.iter_mut().filter(|x| side.beyond(**x) > -closest) {
-            *x = side.placed(*x, -closest);
+        for x in position.iter_mut().filter(|x| side.overshoot(**x) > -closest) {
+            *x = side.projected(*x, -closest);
             count += 1;
         }
     }

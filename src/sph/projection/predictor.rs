@@ -44,9 +44,9 @@ impl View<'_, Fields> {
             .tighter(longest, "acceleration");
         let smallest = self.config.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
-            let place = particles.position.get(fastest_particle).copied().unwrap_or_default();
+            let position = particles.position.get(fastest_particle).copied().unwrap_or_default();
             let (dt, limit, time) = (step.dt, step.limit, self.state.time);
-            return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, place });
+            return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, position });
         }
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);

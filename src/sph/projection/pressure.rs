@@ -60,7 +60,7 @@ impl View<'_, Fields> {
         // A long step corrects the whole error at most.
         let correction = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = values(n, |a| {
-            if self.config.sees_the_fluid(position[a]) {
+            if self.config.is_near_fluid(position[a]) {
                 -f.volume[a] * (source[a] / dt - correction * self.density_error(a))
             } else {
                 0.0
@@ -77,13 +77,13 @@ impl View<'_, Fields> {
         let mut others = Vec::new();
         if method.numerics.density_error_shifting > 0.0 {
             let error = values(n, |a| {
-                let error = if self.config.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
+                let error = if self.config.is_near_fluid(position[a]) { self.density_error(a) } else { 0.0 };
                 method.numerics.density_error_shifting * f.volume[a] * error
             });
             others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
-        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
+        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::inward).collect();
         others.extend(axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), tolerance)));
         let guess = self.state.particles.pressure.clone();
         let equation = PressureEquation { matrix, b, prescribed, guess, others };
@@ -106,7 +106,7 @@ impl View<'_, Fields> {
         let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
         let (sides, method) = (&self.config.open.sides, &self.config.method);
-        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
+        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::inward).collect();
         let others = axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), method.tolerance)).collect();
         let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, method.kernel.h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
@@ -178,7 +178,7 @@ impl View<'_, Fields> {
         let position = &self.state.particles.position;
         let mut outflow = divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, position.len());
         outflow.iter_mut().zip(&*self.fields.bulk.volume).enumerate().for_each(|(a, (outflow, volume))| {
-            *outflow = if self.config.sees_the_fluid(position[a]) { -volume * *outflow } else { 0.0 };
+            *outflow = if self.config.is_near_fluid(position[a]) { -volume * *outflow } else { 0.0 };
         });
         outflow
     }
@@ -200,7 +200,7 @@ impl View<'_, Fields> {
         let of_gradient = divergence(&self.neighborhood.pairs, &f.volume, &acceleration, n);
         let Particles { position, pressure, .. } = &self.state.particles;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
-            if self.config.sees_the_fluid(position[a]) {
+            if self.config.is_near_fluid(position[a]) {
                 let laplacian = matrix.diagonal[a] * pressure[a] - matrix.coupled(a, pressure) - hydrostatic[a];
                 *b += damped.excess * (laplacian - f.volume[a] * of_gradient[a]);
             }
@@ -241,7 +241,7 @@ impl View<'_, Fields> {
     fn down(&self, potential: Vec<f64>) -> Vec<Vec2> {
         let potential = self.neighborhood.images.field(potential);
         let (pairs, f) = (&self.neighborhood.pairs, &self.fields.bulk);
-        pressure_gradient::down(pairs, &f.volume, &f.density, &potential, self.state.particles.fluids)
+        pressure_gradient::descent(pairs, &f.volume, &f.density, &potential, self.state.particles.fluids)
     }
 }
 

@@ -5,7 +5,7 @@ use super::method::median_width;
 use crate::case::Sph;
 use crate::geometry::Geometry;
 use crate::geometry::throats::throats;
-use crate::interface::depth::{duct_error, odd, profile_factor};
+use crate::interface::depth::{duct_error, implausible, profile_factor};
 use crate::wetting::Wetting;
 
 /// Relative error of the flow through a throat above which a note is issued.
@@ -17,7 +17,8 @@ pub(crate) fn notes(sph: &Sph, geometry: &Geometry) -> Vec<String> {
     let widths: Vec<f64> = throats(geometry).iter().map(|throat| throat.width).collect();
     let law = sph.wetting_model.filter(|_| sph.acting_tension() > 0.0).and_then(|law| on_walls_only(&law));
     let [Some(&narrowest), Some(&widest)] = [widths.first(), widths.last()] else { return law.into_iter().collect() };
-    let of_throats = odd(depth, narrowest, widest).or_else(|| unlike(sph, (depth, &widths), [narrowest, widest]));
+    let of_throats =
+        implausible(depth, narrowest, widest).or_else(|| unlike(sph, (depth, &widths), [narrowest, widest]));
     of_throats.into_iter().chain(law).collect()
 }
 

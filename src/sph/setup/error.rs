@@ -23,7 +23,7 @@ pub enum SetupError {
         height: f64,
     },
     /// An open side blocked by solids.
-    #[error("solids block the open side `{0}` all along; open another side, or leave a gap in the solids")]
+    #[error("solids block the open side `{0}` along its whole length; open another side, or leave a gap in the solids")]
     Blocked(&'static str),
     /// A parabola over several openings.
     #[error(
@@ -38,13 +38,13 @@ pub enum SetupError {
     /// A solid or a pore that ends at an open side.
     #[error(
         "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls continue beyond an open side, so let the shape extend \
-         {reach:.1e} m beyond it, or end before it", place.x, place.y
+         {reach:.1e} m beyond it, or end before it", position.x, position.y
     )]
     EndsAtSide {
         /// The side.
         side: &'static str,
         /// Position in m.
-        place: Vec2,
+        position: Vec2,
         /// Distance in m by which the shape must extend beyond the side.
         reach: f64,
     },

@@ -41,6 +41,6 @@ impl Ground {
 
 /// The phase at `x` at time zero.
 pub(super) fn start_phase(sph: &Sph, region: &Region, x: Vec2) -> Phase {
-    let wetting = region.holds(x) != sph.initial.wetting_is_background;
+    let wetting = region.contains(x) != sph.initial.wetting_is_background;
     if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
 }

@@ -26,7 +26,7 @@ pub(super) fn set(
 ) {
     for a in 0..particles.moving() {
         let x = particles.position[a];
-        let given = sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
+        let given = sides.iter().filter(|side| side.overshoot(x) > 0.0).find_map(|side| side.given_velocity(x));
         let initial = || match sph.initial.velocity {
             InitialVelocity::Rest => through.iter().filter_map(|side| side.parabola(x)).sum(),
             moving => velocity(&moving, inside(x), bounds),
@@ -39,7 +39,7 @@ pub(super) fn set(
     // The pressure gradients at the sides start from zero: each particle has the pressure of the nearest side.
     for a in 0..particles.len() {
         let x = particles.position[a];
-        let given = sides.iter().filter_map(|side| Some((side.beyond(x), side.given_pressure()?)));
+        let given = sides.iter().filter_map(|side| Some((side.overshoot(x), side.given_pressure()?)));
         particles.pressure[a] = given.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, pressure)| pressure);
     }
 }

@@ -8,7 +8,7 @@ mod ground;
 mod initial;
 mod method;
 mod open_sides;
-mod places;
+mod positions;
 mod surroundings;
 mod to_network_state;
 mod viscous_time;
@@ -23,7 +23,7 @@ pub(crate) use initial::region;
 use self::frozen::Pore;
 use self::ground::{Ground, start_phase};
 use self::open_sides::{inside_of_open_sides, open_sides};
-use self::places::{Filling, places};
+use self::positions::{Filling, positions};
 use self::surroundings::surroundings;
 use self::viscous_time::viscous_time;
 use self::walls::wall_properties;
@@ -154,10 +154,10 @@ fn filled(
         sides: sph.sides.each(),
         fitted_walls: sph.numerics.fitted_walls,
     };
-    let places = places(&filling, interface, packed);
-    let particles = places.particles(|x| start_phase(sph, region, x));
+    let positions = positions(&filling, interface, packed);
+    let particles = positions.particles(|x| start_phase(sph, region, x));
     if particles.fluids == 0 {
         return Err(SetupError::NoFluid(sph.spacing));
     }
-    Ok((particles, places.depth))
+    Ok((particles, positions.depth))
 }

@@ -26,13 +26,13 @@ pub(super) fn open_sides(
         let Some(given) = given else { continue };
         let (axis, along) = (number / 2, 1 - number / 2);
         let at = if number.is_multiple_of(2) { bounds.min[axis] } else { bounds.max[axis] };
-        let enters = given.enters_wetting.map(|wetting| if wetting { Phase::Wetting } else { Phase::NonWetting });
+        let inflow_phase = given.enters_wetting.map(|wetting| if wetting { Phase::Wetting } else { Phase::NonWetting });
         let layers = (open::DEPTH * h / lattice.step[axis]).ceil();
         let mut side = OpenSide {
             number,
             at,
             drive: open::Drive::Pressure(0.0),
-            enters,
+            inflow_phase,
             main: Phase::Wetting,
             openings: Vec::new(),
             row_spacing: lattice.step[along],
@@ -43,7 +43,7 @@ pub(super) fn open_sides(
         let near_side = |y: f64| {
             let mut x = Vec2::zeros();
             x[along] = y;
-            side.placed(x, -INSIDE * sph.spacing)
+            side.projected(x, -INSIDE * sph.spacing)
         };
         // Narrower solids are no obstacle at the resolution of the particles.
         let step = 0.1 * sph.spacing;
@@ -61,7 +61,7 @@ pub(super) fn open_sides(
         if openings.is_empty() {
             return Err(SetupError::Blocked(SIDES[number]));
         }
-        side.main = enters.unwrap_or_else(|| main_phase(&openings, |y| phase(near_side(y)), step));
+        side.main = inflow_phase.unwrap_or_else(|| main_phase(&openings, |y| phase(near_side(y)), step));
         let width: f64 = openings.iter().map(Opening::width).sum();
         let profile = |mean: f64, form| {
             shape(form, SIDES[number], &openings, [kinds[2 * along], kinds[2 * along + 1]])
@@ -111,12 +111,12 @@ fn check_walls_beyond(
     let count = (bounds.size()[along] / step[along]).round() as usize;
     for i in 0..count {
         let y = bounds.min[along] + (i as f64 + 0.5) * step[along];
-        let place = near_side(y);
+        let position = near_side(y);
         let is_open = openings.iter().any(|o| (o.from..=o.to).contains(&y));
         // Near its edges an opening may change along an inclined wall.
         let is_near_edge = openings.iter().any(|o| (y - o.from).abs().min((y - o.to).abs()) < reach);
-        if !is_near_edge && is_open != (geometry.signed_distance(side.placed(place, reach)) > 0.0) {
-            return Err(SetupError::EndsAtSide { side: SIDES[side.number], place, reach });
+        if !is_near_edge && is_open != (geometry.signed_distance(side.projected(position, reach)) > 0.0) {
+            return Err(SetupError::EndsAtSide { side: SIDES[side.number], position, reach });
         }
     }
     Ok(())
@@ -138,5 +138,5 @@ fn main_phase(openings: &[Opening], phase: impl Fn(f64) -> Phase, step: f64) -> 
 /// The point at which walls are evaluated: beyond an open side the nearest point on the side, so that walls continue along its normal.
 pub(super) fn inside_of_open_sides(sides: &[OpenSide]) -> impl Fn(Vec2) -> Vec2 + Send + Sync + use<> {
     let sides = sides.to_vec();
-    move |x| sides.iter().fold(x, |x, side| if side.beyond(x) > 0.0 { side.placed(x, 0.0) } else { x })
+    move |x| sides.iter().fold(x, |x, side| if side.overshoot(x) > 0.0 { side.projected(x, 0.0) } else { x })
 }

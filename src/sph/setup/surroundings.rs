@@ -1,6 +1,6 @@
 //! Walls and solids for measures and output.
 
-use super::to_network_state::hand_back;
+use super::to_network_state::state_export;
 use crate::case::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
@@ -27,8 +27,8 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry, method: 
         stages: stages(sph, case.end),
         grid_spacing: case.output.grid_ratio * sph.spacing,
         // With a frozen interface the state of the network does not change.
-        hand_back: (sph.initial.network.as_ref().filter(|_| !sph.measure.relative_permeability))
-            .map(|start| hand_back(start, sph.tension, method.plates.map(|plates| plates.depth))),
+        state_export: (sph.initial.network.as_ref().filter(|_| !sph.measure.relative_permeability))
+            .map(|start| state_export(start, sph.tension, method.plates.map(|plates| plates.depth))),
     }
 }
 

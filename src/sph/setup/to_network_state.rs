@@ -8,14 +8,14 @@ use crate::geometry::elements::Elements;
 use crate::interface::depth::Depth;
 use crate::math::Vec2;
 use crate::sph::particles::{Particles, Phase};
-use crate::sph::solver::HandBack;
+use crate::sph::solver::StateExport;
 use crate::table::Document;
 
 const NOTE: &str = "phases by area share of a direct simulation: in each element the phase of more than half of its particles; menisci and trapped \
                     fluid are determined by the network; SI units";
 
 /// `at-end.json` of a direct run that started from `start`, from its particles and its capillary pressure p_n - p_w in Pa.
-pub(super) fn hand_back(start: &Start, tension: f64, depth: Option<Depth>) -> HandBack {
+pub(super) fn state_export(start: &Start, tension: f64, depth: Option<Depth>) -> StateExport {
     let start = Arc::clone(&start.state);
     Box::new(move |particles: &Particles, pressure| {
         let fluid = (0..particles.fluids).map(|a| (particles.position[a], particles.phase[a]));

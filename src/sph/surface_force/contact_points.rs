@@ -20,7 +20,7 @@ pub(super) struct ContactPoint {
     /// 1 if ν_ns points to the left of the normal, else -1: constant along a wall, also around its edges.
     pub(super) side: f64,
     /// Distance along the interface to the wall in m.
-    pub(super) way: f64,
+    pub(super) arc_length: f64,
 }
 
 impl Interface<'_> {
@@ -34,16 +34,16 @@ impl Interface<'_> {
             return None;
         }
         let side = -perpendicular(point.wall_normal).dot(&point.normal).signum();
-        let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
+        let arc_length = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
         // Along the interface towards the wall, then projected onto it.
         let mut down = perpendicular(point.normal);
         if down.dot(&point.wall_normal) > 0.0 {
             down = -down;
         }
-        let end = point.x + way * down;
+        let end = point.x + arc_length * down;
         let (distance, normal) = (self.wall)(end);
         let contact = end - distance * normal - point.x;
-        Some(ContactPoint { contact, normal, side, way })
+        Some(ContactPoint { contact, normal, side, arc_length })
     }
 }
 

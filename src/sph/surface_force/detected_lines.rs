@@ -26,14 +26,14 @@ const ONE_LINE: f64 = 2.0;
 pub(crate) struct InterfaceLine<'a> {
     pub(super) interface: &'a Interface<'a>,
     /// Approximate position on the wall in m.
-    pub(super) place: Vec2,
+    pub(super) position: Vec2,
     /// Wall normal.
     pub(super) normal: Vec2,
     /// 1 if ν_ns points to the left of the wall normal, else -1.
     pub(super) side: f64,
     /// Mean unit normal of the interface.
     pub(super) into_wetting: Vec2,
-    /// The points around it, relative to `place`.
+    /// The points around it, relative to `position`.
     pub(super) near: Vec<WeightedPoint>,
 }
 
@@ -114,16 +114,16 @@ impl Interface<'_> {
         }
         let mean = from + group.iter().map(|k| weight(k) * contact(k)).sum::<Vec2>() / sum;
         let (distance, normal) = (self.wall)(mean);
-        let place = mean - distance * normal;
+        let position = mean - distance * normal;
         let into_wetting: Vec2 = group.iter().map(|k| weight(k) * self.points[ends[*k].0].normal).sum();
         let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
         let side = ends[group[0]].1.side;
-        let level = self.stencil(into_wetting, place);
+        let level = self.stencil(into_wetting, position);
         let kappa = self.circle(&level, into_wetting).and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
         (near.len() >= FEWEST_FROM_CONTACT).then_some(InterfaceLine {
             interface: self,
-            place,
+            position,
             normal,
             side,
             into_wetting,
@@ -138,8 +138,8 @@ fn is_inside(domain: &Domain, x: Vec2) -> bool {
 }
 
 impl DetectedLine for InterfaceLine<'_> {
-    fn place(&self) -> Vec2 {
-        self.interface.domain.wrapped(self.place)
+    fn position(&self) -> Vec2 {
+        self.interface.domain.wrapped(self.position)
     }
 
     fn outward(&self) -> Vec2 {
@@ -158,18 +158,18 @@ impl DetectedLine for InterfaceLine<'_> {
     }
 
     fn present(&self, anchor: Option<Vec2>) -> f64 {
-        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.interface.domain.separation(anchor, self.place));
+        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.interface.domain.separation(anchor, self.position));
         let straight = (-self.into_wetting.dot(&self.normal)).clamp(-1.0, 1.0).acos();
         angle_through(&self.near, anchor, self.into_wetting, self.normal).unwrap_or(straight)
     }
 
-    fn meets(&self, angle: f64) -> Vec2 {
+    fn intersection(&self, angle: f64) -> Vec2 {
         let wall = WallFrame { outward: self.outward(), normal: self.normal };
         let shift = fit_from_contact(&self.near, Vec2::zeros(), wall, angle);
         // A fit that is far off along the wall is no better than the straight continuation.
         let shift =
             shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
-        let x = self.place + shift * wall.outward;
+        let x = self.position + shift * wall.outward;
         let (distance, normal) = (self.interface.wall)(x);
         x - distance * normal
     }
@@ -227,7 +227,7 @@ mod tests {
                 let side = line.outward().x;
                 let exact = Vec2::new(side * degrees.to_radians().sin(), 0.0);
                 assert!(side.abs() == 1.0 && (line.speed() - 0.3 * side).abs() < 1e-9, "{degrees}: {}", line.speed());
-                let meets = line.meets(degrees.to_radians());
+                let meets = line.intersection(degrees.to_radians());
                 // At small angles the iteration for the contact point gains about one digit per step.
                 assert!((meets - exact).norm() < 1e-3, "{degrees}: {meets:?}");
                 let present = line.present(Some(exact)).to_degrees();

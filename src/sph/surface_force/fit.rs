@@ -39,11 +39,11 @@ pub(crate) type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
 
 /// Result of a fit constrained to the contact angle, for the interface between the wall and a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Turning {
+pub(crate) struct WallFit {
     /// Mean curvature in 1/m from the contact line to the point.
     pub(crate) mean: f64,
     /// Arc length along the interface from its contact line in m.
-    pub(crate) way: f64,
+    pub(crate) arc_length: f64,
     /// Weight of the constrained fit in the curvature.
     pub(crate) share: f64,
     /// 1 if ν_ns points to the left of the wall normal, else -1.
@@ -58,7 +58,7 @@ pub(crate) struct Fitted {
     /// Curvature of the fits in 1/m.
     pub(crate) curvature: f64,
     /// Result of the constrained fit, if there is one.
-    pub(crate) turning: Option<Turning>,
+    pub(crate) constrained: Option<WallFit>,
 }
 
 /// The fits for the curvature of an interface.
@@ -95,7 +95,7 @@ impl<'a> InterfaceFit<'a> {
             [] => None,
             [one] => Some(one),
             // Equidistant points, on an axis of symmetry, may belong to different contact lines.
-            _ => Some(Fitted { curvature, turning: None }),
+            _ => Some(Fitted { curvature, constrained: None }),
         }
     }
 
@@ -110,50 +110,50 @@ impl<'a> InterfaceFit<'a> {
         // At rest the curvature extrapolated off the interface in this way balances gravity between any two particles.
         let off = self.interface.gradient.dot(&(x - point.x));
         let (kappa, limit) = (at.curvature + off, self.interface.limit());
-        let turning = at.turning.map(|turning| Turning { mean: turning.mean + off, ..turning });
-        kappa.is_finite().then(|| Fitted { curvature: kappa.clamp(-limit, limit), turning })
+        let constrained = at.constrained.map(|constrained| WallFit { mean: constrained.mean + off, ..constrained });
+        kappa.is_finite().then(|| Fitted { curvature: kappa.clamp(-limit, limit), constrained })
     }
 
     /// Curvature of the stencil `near` at `point`: constrained to the angle at a wall, free far from one.
     fn fitted(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<Fitted> {
         let free = self.interface.circle(near, point.normal).and_then(|circle| circle.curvature());
-        let turning = self.constrained_fit(point, near);
-        let curvature = match (turning, free) {
-            (Some(Turning { mean, share, .. }), Some(free)) => share * mean + (1.0 - share) * free,
-            (Some(Turning { mean, .. }), None) => mean,
+        let constrained = self.constrained_fit(point, near);
+        let curvature = match (constrained, free) {
+            (Some(WallFit { mean, share, .. }), Some(free)) => share * mean + (1.0 - share) * free,
+            (Some(WallFit { mean, .. }), None) => mean,
             (None, free) => free?,
         };
-        Some(Fitted { curvature, turning })
+        Some(Fitted { curvature, constrained })
     }
 
     /// The fit constrained to the contact angle, if the interface meets a wall near `point`.
-    fn constrained_fit(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<Turning> {
+    fn constrained_fit(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<WallFit> {
         let touches = near.iter().any(|q| self.interface.points[q.index].touches);
         if self.angle.is_none() || !touches || near.len() < FEWEST_FROM_CONTACT {
             return None;
         }
-        let ContactPoint { mut contact, mut normal, side, way } = self.interface.contact_point(point)?;
-        let share = ((REACH * self.interface.h - way) / (2.0 * self.interface.h)).clamp(0.0, 1.0);
+        let ContactPoint { mut contact, mut normal, side, arc_length } = self.interface.contact_point(point)?;
+        let share = ((REACH * self.interface.h - arc_length) / (2.0 * self.interface.h)).clamp(0.0, 1.0);
         if share == 0.0 {
             return None;
         }
         // `end` is the contact line, in m from the point.
-        let turning = |mean: f64, end: Vec2| {
-            let way = arc(end.norm(), mean);
-            Turning { mean, way, share, side, line: point.x + end }
+        let constrained = |mean: f64, end: Vec2| {
+            let arc_length = arc(end.norm(), mean);
+            WallFit { mean, arc_length, share, side, line: point.x + end }
         };
         if let Some(line) = self.pinned_line_at(point.x + contact, side) {
-            let contact = self.interface.domain.separation(line.place, point.x);
+            let contact = self.interface.domain.separation(line.position, point.x);
             let wall = WallFrame { outward: side * perpendicular(line.normal), normal: line.normal };
             let near = self.interface.at_end_of_step(near);
             let (mean, delta) = self.fit_at(point, &near, contact, wall)?;
-            return Some(turning(mean, contact + delta * wall.outward));
+            return Some(constrained(mean, contact + delta * wall.outward));
         }
         let mut found = None;
         for _ in 0..PROJECTIONS {
             let wall = WallFrame { outward: side * perpendicular(normal), normal };
             let (mean, delta) = self.fit_at(point, near, contact, wall)?;
-            found = Some(turning(mean, contact + delta * wall.outward));
+            found = Some(constrained(mean, contact + delta * wall.outward));
             // The contact point is on the tangent of the wall; a curved wall is evaluated again there.
             let on_tangent = point.x + contact + delta.clamp(-self.interface.h, self.interface.h) * wall.outward;
             let (distance, there) = (self.interface.wall)(on_tangent);
@@ -182,7 +182,7 @@ impl<'a> InterfaceFit<'a> {
 
     /// The pinned line of an interface that meets the wall near `x` (m), on the given side.
     fn pinned_line_at(&self, x: Vec2, side: f64) -> Option<&PinnedLine> {
-        let distance = |line: &&PinnedLine| self.interface.domain.separation(line.place, x).norm();
+        let distance = |line: &&PinnedLine| self.interface.domain.separation(line.position, x).norm();
         let pinned_lines =
             self.pinned_lines.iter().filter(|line| line.side == side && distance(line) < LINE_REACH * self.interface.h);
         pinned_lines.min_by(|a, b| distance(a).total_cmp(&distance(b)))

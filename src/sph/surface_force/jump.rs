@@ -10,7 +10,7 @@ use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::Pairs;
 use crate::sph::parallel::{GRAIN, values};
-use crate::sph::surface_force::fit::{Fitted, Turning};
+use crate::sph::surface_force::fit::{Fitted, WallFit};
 use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 use crate::sph::view::View;
 
@@ -70,12 +70,12 @@ impl Jump {
         let rest = |a: usize, b: usize| gradient.dot(&domain.separation(position[a], position[images.source(b)]));
         let apart = |x: Vec2, y: Vec2| domain.separation(x, y).norm();
         let on_fluid = values(fluids, |a| {
-            let Some(Fitted { curvature, turning }) = fitted[a] else { return f64::NAN };
-            let Some(here) = turning else { return curvature };
+            let Some(Fitted { curvature, constrained }) = fitted[a] else { return f64::NAN };
+            let Some(here) = constrained else { return curvature };
             let neighbors = pairs.of(a).filter_map(|ab| {
-                let there = fitted.get(images.source(ab.b))?.as_ref()?.turning?;
+                let there = fitted.get(images.source(ab.b))?.as_ref()?.constrained?;
                 let same = there.side == here.side && apart(there.line, here.line) < ONE_LINE * h;
-                same.then(|| (ab.w, Turning { mean: there.mean + rest(a, ab.b), ..there }))
+                same.then(|| (ab.w, WallFit { mean: there.mean + rest(a, ab.b), ..there }))
             });
             curvature + here.share * turned(here, neighbors, pairs.w_self, h)
         });
@@ -140,10 +140,10 @@ fn drops(flow: &View<BulkFields>) -> Field<bool> {
 
 /// The difference in 1/m of the local curvature from the mean between the wall and the arc length s: s dκ̄/ds, with the slope of a weighted linear
 /// regression over the `neighbors`.
-fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_weight: f64, h: f64) -> f64 {
+fn turned(here: WallFit, neighbors: impl Iterator<Item = (f64, WallFit)>, own_weight: f64, h: f64) -> f64 {
     let (mut norm, mut s, mut k, mut ss, mut sk) = (own_weight, 0.0, 0.0, 0.0, 0.0);
     for (w, there) in neighbors {
-        let (ds, dk) = (there.way - here.way, there.mean - here.mean);
+        let (ds, dk) = (there.arc_length - here.arc_length, there.mean - here.mean);
         norm += w;
         s += w * ds;
         k += w * dk;
@@ -152,7 +152,7 @@ fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_we
     }
     let (s, k) = (s / norm, k / norm);
     let slope = (sk / norm - s * k) / (ss / norm - s * s + LEAST_SPREAD * h * h);
-    (here.way * slope).clamp(-LARGEST_CORRECTION / h, LARGEST_CORRECTION / h)
+    (here.arc_length * slope).clamp(-LARGEST_CORRECTION / h, LARGEST_CORRECTION / h)
 }
 
 /// The curvature without the noise of single fits \[vanCittert1931\]: S κ + g (S κ − S² κ), S the average over fluid particles with a curvature.
@@ -192,20 +192,20 @@ mod tests {
     use super::*;
 
     /// The mean over the arc length s of the curvature 3 + 2s.
-    fn constrained(way: f64) -> Turning {
-        Turning { mean: 3.0 + way, way, share: 1.0, side: 1.0, line: Vec2::zeros() }
+    fn constrained(arc_length: f64) -> WallFit {
+        WallFit { mean: 3.0 + arc_length, arc_length, share: 1.0, side: 1.0, line: Vec2::zeros() }
     }
 
     #[test]
     fn the_curvature_at_the_end_of_a_way_is_found_from_the_means_of_ways() {
         const H: f64 = 0.15;
-        for way in [0.0, 0.1, 0.3] {
+        for arc_length in [0.0, 0.1, 0.3] {
             let neighbors = (0..10).map(|i| (1.0, constrained(0.05 * f64::from(i))));
-            let more = turned(constrained(way), neighbors, 1.0, H);
-            assert!((more - way).abs() < 0.03 * way + 1e-12, "{more} at {way}");
+            let more = turned(constrained(arc_length), neighbors, 1.0, H);
+            assert!((more - arc_length).abs() < 0.03 * arc_length + 1e-12, "{more} at {arc_length}");
         }
         // No correction at rest; a single arc length has no slope.
-        let rest = |way: f64| Turning { mean: 3.0, ..constrained(way) };
+        let rest = |arc_length: f64| WallFit { mean: 3.0, ..constrained(arc_length) };
         assert_eq!(turned(rest(0.2), (0..10).map(|i| (1.0, rest(0.05 * f64::from(i)))), 1.0, H), 0.0);
         assert_eq!(turned(constrained(0.2), std::iter::empty(), 1.0, H), 0.0);
     }

@@ -30,7 +30,7 @@ const LIFT: f64 = 0.5;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PinnedLine {
     /// A point in m on the tangent of the wall where the interface meets it.
-    pub(super) place: Vec2,
+    pub(super) position: Vec2,
     /// The wall normal of the tangent.
     pub(super) normal: Vec2,
     /// 1 if ν_ns points to the left of the normal, else -1.
@@ -47,8 +47,8 @@ struct End {
 impl InterfaceLine<'_> {
     /// The pinned line where the interface meets the wall at the `angle` (rad), `None` if the wall does not bend there \[Oliver1977\].
     pub(crate) fn pinned(&self, angle: f64) -> Option<PinnedLine> {
-        let (interface, place) = (self.interface, self.place);
-        let normal_at = |s: f64| (interface.wall)(place + s * interface.h * self.outward()).1;
+        let (interface, position) = (self.interface, self.position);
+        let normal_at = |s: f64| (interface.wall)(position + s * interface.h * self.outward()).1;
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {
             return None;
         }
@@ -71,10 +71,11 @@ impl InterfaceLine<'_> {
                 }
                 _ => end.contact + shift.clamp(-interface.h, interface.h) * wall.outward,
             };
-            let (distance, normal) = (interface.wall)(place + next);
+            let (distance, normal) = (interface.wall)(position + next);
             end = End { contact: next - distance * normal, normal };
         }
-        Some(PinnedLine { place: interface.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
+        let position = interface.domain.wrapped(position + end.contact);
+        Some(PinnedLine { position, normal: end.normal, side: self.side })
     }
 
     /// A point above an end, from which the wall query returns the same normal.

@@ -59,7 +59,7 @@ impl View<'_, BulkFields> {
             fit = fit.with_contact_angle(&angle_at).with_pinned_lines(&pinned);
         }
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
-        let given = given.map(|curvature| Fitted { curvature, turning: None });
+        let given = given.map(|curvature| Fitted { curvature, constrained: None });
         let side = shepard::into_walls(self.neighborhood, &bulk.fluid_volume, moving, sharp.to_vec());
         let jump = Jump::new(self, &side, gradient, |x| given.or_else(|| fit.at(x)));
         let curvature = jump.curvature[..particles.len()].iter().map(|&k| if k.is_nan() { 0.0 } else { k }).collect();

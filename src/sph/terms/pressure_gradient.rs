@@ -57,7 +57,7 @@ pub fn correct_gradient(moment: &[f64], acceleration: &mut [Vec2]) {
 }
 
 /// −∇φ/ρ of a potential φ without jumps, by [`difference`]: a displacement in m down the gradient for φ in kg/m.
-pub(crate) fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], count: usize) -> Vec<Vec2> {
+pub(crate) fn descent(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], count: usize) -> Vec<Vec2> {
     difference(pairs, volume, density, potential, |_, _| 0.0, count)
 }
 

@@ -64,15 +64,15 @@ pub struct LineParticles {
 /// A contact line by the means over its particles with the weights V δ.
 #[derive(Debug, Clone, Copy)]
 pub struct MeanLine {
-    place: Vec2,
+    position: Vec2,
     outward: Vec2,
     speed: f64,
     present: f64,
 }
 
 impl DetectedLine for MeanLine {
-    fn place(&self) -> Vec2 {
-        self.place
+    fn position(&self) -> Vec2 {
+        self.position
     }
     fn outward(&self) -> Vec2 {
         self.outward
@@ -84,8 +84,8 @@ impl DetectedLine for MeanLine {
     fn present(&self, _: Option<Vec2>) -> f64 {
         self.present
     }
-    fn meets(&self, _: f64) -> Vec2 {
-        self.place
+    fn intersection(&self, _: f64) -> Vec2 {
+        self.position
     }
 }
 
@@ -134,19 +134,19 @@ impl LineParticles {
 /// The means over the particles of a line, at least one; `norm` is the sum of the weights.
 fn mean(line: &[LineParticle], norm: f64, fields: &LineFields, domain: &Domain) -> MeanLine {
     let from = fields.position[line[0].a];
-    let (mut place, mut outward, mut cosine) = (Vec2::zeros(), Vec2::zeros(), 0.0);
+    let (mut position, mut outward, mut cosine) = (Vec2::zeros(), Vec2::zeros(), 0.0);
     let (mut moved, mut along) = (0.0, 0.0);
     for p in line {
         let weight = fields.volume[p.a] * p.delta / norm;
         let closest = fields.position[p.a] - fields.wall_distance[p.a] * fields.wall_normal[p.a];
-        place += weight * domain.separation(closest, from);
+        position += weight * domain.separation(closest, from);
         outward += weight * p.tangent;
         cosine += weight * p.cos_alpha;
         moved += weight * fields.velocity[p.a].dot(&fields.unit_normal[p.a]);
         along += weight * p.tangent.dot(&fields.unit_normal[p.a]);
     }
     MeanLine {
-        place: domain.wrapped(from + place),
+        position: domain.wrapped(from + position),
         outward: outward.try_normalize(f64::EPSILON).unwrap_or(line[0].tangent),
         // An interface that moves along the wall with the speed U has v·n = U ν·n; ν·n is −sin of the angle.
         speed: if along < 0.0 { moved / along } else { 0.0 },

@@ -56,7 +56,7 @@ pub(crate) fn gone(lines: &[TrackedLine], distance: f64) -> Option<Vec2> {
 /// A contact line detected from the interface at one time.
 pub trait DetectedLine {
     /// Approximate position of the line, a point of the wall in m.
-    fn place(&self) -> Vec2;
+    fn position(&self) -> Vec2;
     /// ν_ns.
     fn outward(&self) -> Vec2;
     /// Speed in m/s along ν_ns, not relative to the wall.
@@ -64,7 +64,7 @@ pub trait DetectedLine {
     /// Angle in rad of the interface through the point `anchor` (m) of the wall; without one through the position of the line.
     fn present(&self, anchor: Option<Vec2>) -> f64;
     /// Intersection in m of interface and wall, given the contact angle (rad).
-    fn meets(&self, angle: f64) -> Vec2;
+    fn intersection(&self, angle: f64) -> Vec2;
 }
 
 /// Tracker of contact lines, with properties of the flow and the wall.
@@ -117,7 +117,7 @@ impl ContactLineTracker<'_> {
         let mut near = Vec::new();
         for (s, detected) in detected_lines.iter().enumerate() {
             for (i, line) in lines.iter().enumerate() {
-                let distance = self.domain.separation(detected.place(), line.position).norm();
+                let distance = self.domain.separation(detected.position(), line.position).norm();
                 if distance < SAME_LINE * self.h && detected.outward().dot(&line.outward) > 0.0 {
                     near.push((distance, s, i));
                 }
@@ -134,13 +134,13 @@ impl ContactLineTracker<'_> {
     }
 
     fn update(&self, detected: &impl DetectedLine, known: Option<TrackedLine>, dt: f64) -> TrackedLine {
-        let (place, outward) = (detected.place(), detected.outward());
-        let speed = detected.speed() - (self.wall_velocity)(place).dot(&outward);
+        let (position, outward) = (detected.position(), detected.outward());
+        let speed = detected.speed() - (self.wall_velocity)(position).dot(&outward);
         let speed = match known {
             Some(line) => line.speed + (speed - line.speed) * (1.0 - (-dt / self.mean_over).exp()),
             None => speed,
         };
-        let model = (self.model)(place);
+        let model = (self.model)(position);
         let anchor = known.map(|line| line.anchor).filter(|_| model.pins());
         let present = detected.present(anchor);
         let state = LineState {
@@ -156,7 +156,7 @@ impl ContactLineTracker<'_> {
         let is_pinned = model.pins() && angle == present;
         let position = match anchor {
             Some(anchor) if is_pinned => anchor,
-            _ => self.domain.wrapped(detected.meets(angle)),
+            _ => self.domain.wrapped(detected.intersection(angle)),
         };
         let moved = |line: TrackedLine| line.travel + self.domain.separation(position, line.position).dot(&outward);
         let travel = known.map_or(0.0, moved);
@@ -168,11 +168,11 @@ impl ContactLineTracker<'_> {
 pub(crate) fn nearest<'l>(
     lines: &'l [TrackedLine],
     domain: &Domain,
-    place: Vec2,
+    position: Vec2,
     outward: Vec2,
     reach: f64,
 ) -> Option<&'l TrackedLine> {
-    let distance = |line: &&TrackedLine| domain.separation(place, line.position).norm();
+    let distance = |line: &&TrackedLine| domain.separation(position, line.position).norm();
     lines
         .iter()
         .filter(|line| line.outward.dot(&outward) > 0.0 && distance(line) < reach)
@@ -195,7 +195,7 @@ mod tests {
     }
 
     impl DetectedLine for Straight {
-        fn place(&self) -> Vec2 {
+        fn position(&self) -> Vec2 {
             Vec2::new(self.x, 0.0)
         }
         fn outward(&self) -> Vec2 {
@@ -208,7 +208,7 @@ mod tests {
             // Through the anchor and the point of the interface at the height h.
             anchor.map_or(self.angle, |anchor| H.atan2(anchor.x - self.x + H / self.angle.tan()))
         }
-        fn meets(&self, angle: f64) -> Vec2 {
+        fn intersection(&self, angle: f64) -> Vec2 {
             Vec2::new(self.x - H / self.angle.tan() + H / angle.tan(), 0.0)
         }
     }

@@ -16,7 +16,7 @@ use crate::run::ensemble::{Ground, Map};
 use crate::run::report::{Reading, Status};
 use crate::study::definition::Study;
 use crate::study::folder::StudyFolder;
-use crate::study::results::{RunReport, RunResult, Standing, Total, Unknowns};
+use crate::study::results::{RunReport, RunResult, RunState, Total, Unknowns};
 
 /// Time between two saves.
 const BETWEEN_SAVES: Duration = Duration::from_secs(5);
@@ -148,16 +148,16 @@ fn result(sample: &PlannedSample, done: Option<&Done>) -> RunResult {
         cpu_s: None,
         solver: Unknowns { unknowns: 0, wall_time_s: None },
     };
-    let standing = match done.map(|done| &done.ended) {
-        None => Standing::New,
-        Some(Err(why)) => Standing::Failed(Box::new(report(Status::Failed, Some(why.clone())))),
+    let state = match done.map(|done| &done.ended) {
+        None => RunState::New,
+        Some(Err(why)) => RunState::Failed(Box::new(report(Status::Failed, Some(why.clone())))),
         Some(Ok(kept)) => {
             let reading = |(name, unit, value): &(String, String, f64)| {
                 let value = Some(*value).filter(|value| value.is_finite());
                 let unit = unit.clone();
                 (name.clone(), Reading { value, unit, uncertainty: None, method: String::new(), not_at_rest: None })
             };
-            Standing::Complete(Box::new(RunReport {
+            RunState::Complete(Box::new(RunReport {
                 steps: kept.steps,
                 measures: kept.measures.iter().map(reading).collect(),
                 wall_time_s: Total { total: kept.seconds },
@@ -166,5 +166,5 @@ fn result(sample: &PlannedSample, done: Option<&Done>) -> RunResult {
             }))
         }
     };
-    RunResult { run: sample.run.clone(), standing }
+    RunResult { run: sample.run.clone(), state }
 }

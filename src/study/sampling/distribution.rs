@@ -80,7 +80,7 @@ fn ends(checker: &mut Checker, [from, to]: [Option<f64>; 2], at: &str, key: &str
         checker.refuse(
             format!("{at}.{key}"),
             message,
-            "give the smaller one first; a value that is sure needs no distribution",
+            "give the smaller one first; an exact value needs no distribution",
         );
         return None;
     }

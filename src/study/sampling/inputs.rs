@@ -21,7 +21,7 @@ pub(crate) struct SampledAxis {
     /// A row for each run.
     pub(crate) axis: Axis,
     /// Index in the file of the first axis that it replaces.
-    pub(crate) place: usize,
+    pub(crate) axis_number: usize,
     /// The sampling.
     pub(crate) sampling: Sampling,
 }
@@ -87,11 +87,11 @@ pub(crate) fn sampled(
     if let Some(factor) = matrix? {
         rows.iter_mut().for_each(|(_, shares)| *shares = correlated(shares, &factor));
     }
-    let place = inputs[0].number;
+    let axis_number = inputs[0].number;
     let axis = Axis { columns: columns(&inputs, &rows, indices) };
     let inputs = inputs.into_iter().map(|input| Input { name: input.name, keys: input.keys }).collect();
     let processes = raw.processes.unwrap_or(false);
-    Some(Some(SampledAxis { axis, place, sampling: Sampling { count, indices, processes, inputs } }))
+    Some(Some(SampledAxis { axis, axis_number, sampling: Sampling { count, indices, processes, inputs } }))
 }
 
 fn uncertain(checker: &mut Checker, raw: &RawAxis, number: usize) -> Option<Uncertain> {
@@ -157,7 +157,7 @@ fn correlation(checker: &mut Checker, raw: &[RawCorrelation], inputs: &[Uncertai
         checker.refuse(
             "sampling.correlation",
             "the correlations contradict each other: their matrix is not positive definite",
-            "take smaller ones: what is strongly correlated with the same value is correlated with each other too",
+            "take smaller ones: inputs strongly correlated with the same input are correlated with each other",
         );
     }
     factor.map(Some)

@@ -21,9 +21,9 @@ use system::System;
 /// Relative tolerance where only an absolute one is asked for: rounding.
 const ROUNDING: f64 = 1.0e-14;
 
-/// Places of the particles at a time, and the steps that led there.
+/// Positions of the particles at a time, and the steps that led there.
 pub struct Reached {
-    /// Places.
+    /// Positions.
     pub x: Vec<f64>,
     /// Accepted steps from time zero.
     pub steps: usize,

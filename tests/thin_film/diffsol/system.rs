@@ -7,7 +7,7 @@ use ::diffsol::FaerContext;
 
 use meniscus::thin_film::particles::ParticleMethod;
 
-/// Places of a particle's unknowns in its block.
+/// Indices of a particle's unknowns in its block.
 const PLACE: usize = 0;
 const LEFT: usize = 1;
 const LEFT_WEIGHTED: usize = 2;
@@ -87,7 +87,7 @@ impl System {
         Local { height, slope, drive: third + pull * slope, pull }
     }
 
-    /// Places with the sums that belong to them.
+    /// Positions with the sums that belong to them.
     fn consistent(&self, x: &[f64]) -> Vec<f64> {
         let (n, block) = (self.count(), self.block);
         let mut y = vec![0.0; block * n];

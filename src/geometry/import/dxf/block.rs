@@ -79,11 +79,11 @@ impl Reader<'_> {
     }
 
     /// Takes from the budget; false, with a message, if it is exhausted.
-    fn spend(&mut self, items: usize, place: impl Fn() -> String) -> bool {
+    fn spend(&mut self, items: usize, location: impl Fn() -> String) -> bool {
         let has_room = self.budget.spend(items);
         if !has_room && !self.is_over {
             let found = format!("blocks that unfold into more than {} entities and vertices", self.budget.total());
-            self.refuse(Refusal::new(place(), found, "a drawing with fewer copies of copies (INSERT)"));
+            self.refuse(Refusal::new(location(), found, "a drawing with fewer copies of copies (INSERT)"));
             self.is_over = true;
         }
         has_room
@@ -95,7 +95,7 @@ impl Reader<'_> {
         while at < records.len() && !self.is_over {
             let record = &records[at];
             // Long entities without vertices, such as long texts, cost only time.
-            if !self.spend(1 + record.groups.len() / GROUPS_PER_ITEM, || record.place()) {
+            if !self.spend(1 + record.groups.len() / GROUPS_PER_ITEM, || record.location()) {
                 return;
             }
             match entity::read(&records[at..]) {
@@ -105,12 +105,12 @@ impl Reader<'_> {
                 }
                 Err(refusal) => {
                     at += 1;
-                    let place = if refusal.place == record.place() {
-                        refusal.place
+                    let location = if refusal.location == record.location() {
+                        refusal.location
                     } else {
-                        format!("{}, {}", refusal.place, record.place())
+                        format!("{}, {}", refusal.location, record.location())
                     };
-                    self.refuse(Refusal { place, ..refusal });
+                    self.refuse(Refusal { location, ..refusal });
                 }
             }
         }
@@ -152,12 +152,12 @@ impl Reader<'_> {
         }
     }
 
-    fn outlines(&mut self, content: Content, record: &Record, place: (&Affine, &str)) {
+    fn outlines(&mut self, content: Content, record: &Record, location: (&Affine, &str)) {
         match content {
-            Content::Contour { pieces, is_closed } => self.contour(pieces, is_closed, record, place),
+            Content::Contour { pieces, is_closed } => self.contour(pieces, is_closed, record, location),
             Content::Wide(outlines) => {
                 self.wide += 1;
-                outlines.into_iter().for_each(|pieces| self.contour(pieces, true, record, place));
+                outlines.into_iter().for_each(|pieces| self.contour(pieces, true, record, location));
             }
             Content::Insert(_) | Content::Unused(_) => {}
         }
@@ -165,28 +165,28 @@ impl Reader<'_> {
 
     fn contour(&mut self, pieces: Vec<Piece>, is_closed: bool, record: &Record, (map, layer): (&Affine, &str)) {
         let pieces: Vec<Piece> = pieces.iter().map(|piece| piece.mapped(map)).collect();
-        if !self.spend(pieces.len(), || record.place()) {
+        if !self.spend(pieces.len(), || record.location()) {
             return;
         }
         if !pieces.iter().all(Piece::is_in_range) {
             let expected = "coordinates below 1e38 in the unit of the drawing";
-            return self.refuse(Refusal::new(record.place(), "a coordinate out of range", expected));
+            return self.refuse(Refusal::new(record.location(), "a coordinate out of range", expected));
         }
         if is_closed {
             let size = extent(&pieces);
-            self.closed(&pieces, CLOSING_GAP * size, (record.place(), layer));
+            self.closed(&pieces, CLOSING_GAP * size, (record.location(), layer));
         } else {
             let open = self.open.entry(layer.to_owned()).or_default();
-            let place = record.place();
-            open.extend(pieces.into_iter().map(|piece| (piece, place.clone())));
+            let location = record.location();
+            open.extend(pieces.into_iter().map(|piece| (piece, location.clone())));
         }
     }
 
-    fn closed(&mut self, pieces: &[Piece], gap: f64, (place, layer): (String, &str)) {
+    fn closed(&mut self, pieces: &[Piece], gap: f64, (location, layer): (String, &str)) {
         let outline = match close(pieces, gap) {
             Closed::Circle { center, radius, .. } => Outline::Disc { center, radius },
             Closed::Ring(ring) => {
-                if !self.spend(ring.vertices.len(), || place.clone()) {
+                if !self.spend(ring.vertices.len(), || location.clone()) {
                     return;
                 }
                 Outline::Area { rings: vec![ring], rule: FillRule::EvenOdd }
@@ -194,7 +194,7 @@ impl Reader<'_> {
             Closed::Empty => return self.count("outlines without area", 1),
         };
         let paint = Paint::Unfilled { layer: layer.to_owned() };
-        self.drawing.entities.push(Entity { outline, paint, place });
+        self.drawing.entities.push(Entity { outline, paint, location });
     }
 
     fn insert(&mut self, insert: &Insert, record: &Record, map: &Affine, layer: &str) {
@@ -202,20 +202,20 @@ impl Reader<'_> {
         let Some(block) = file.blocks.get(&insert.block) else {
             let found = format!("the block `{}`, which is not in the file", insert.block);
             return self.refuse(Refusal::new(
-                record.place(),
+                record.location(),
                 found,
                 "the name of a block; bind external references first",
             ));
         };
         if self.inserting.contains(&insert.block) || self.inserting.len() >= DEEPEST {
             let found = format!("the block `{}` within itself, or within {DEEPEST} others", insert.block);
-            return self.refuse(Refusal::new(record.place(), found, "blocks that end somewhere"));
+            return self.refuse(Refusal::new(record.location(), found, "blocks that do not contain themselves"));
         }
         self.inserting.push(insert.block.clone());
         let [columns, rows] = insert.number;
         'copies: for row in 0..rows {
             for column in 0..columns {
-                if self.is_over || !self.spend(1, || record.place()) {
+                if self.is_over || !self.spend(1, || record.location()) {
                     break 'copies;
                 }
                 let step = insert.steps[0] * column as f64 + insert.steps[1] * row as f64;
@@ -254,7 +254,7 @@ impl Reader<'_> {
         }
         if branches > 0 {
             self.drawing.notes.push(format!(
-                "At {branches} points more than two lines meet; rings there follow the order of the file and may be others than meant."
+                "At {branches} points more than two lines meet; rings there follow the order of the file and may differ from those intended."
             ));
         }
         if self.wide > 0 {
@@ -270,15 +270,15 @@ impl Reader<'_> {
         let ends: Vec<Vec2> = free.iter().map(|(end, _)| *end).collect();
         let gaps = gaps(&ends, size);
         let Some(Gap { width, ends: [a, b] }) = gaps.first().copied() else { return };
-        let place = |end: usize| &open[free[end].1].1;
+        let location = |end: usize| &open[free[end].1].1;
         let at = ends[a];
-        let between = if place(a) == place(b) {
-            format!("between the ends of {}", place(a))
+        let between = if location(a) == location(b) {
+            format!("between the ends of {}", location(a))
         } else {
-            format!("between {} and {}", place(a), place(b))
+            format!("between {} and {}", location(a), location(b))
         };
         self.drawing.notes.push(format!(
-            "Lines stay open at {} gaps of up to {width:.3e} drawing units, the widest {between} at ({}, {}): join-within = {:.1e} closes them.",
+            "Lines remain open at {} gaps of up to {width:.3e} drawing units, the widest {between} at ({}, {}): join-within = {:.1e} closes them.",
             gaps.len(),
             at.x,
             at.y,

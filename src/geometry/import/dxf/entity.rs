@@ -106,12 +106,12 @@ impl<'a> Fields<'a, '_> {
     fn real(&self, code: i32) -> Result<f64, Refusal> {
         match self.find(code) {
             Some(group) => group.real(),
-            None => Err(self.refusal("an entity that is cut short", &format!("a value behind group code {code}"))),
+            None => Err(self.refusal("a truncated entity", &format!("a value behind group code {code}"))),
         }
     }
 
     fn refusal(&self, found: &str, expected: &str) -> Refusal {
-        Refusal::new(self.0.place(), found, expected)
+        Refusal::new(self.0.location(), found, expected)
     }
 
     /// Point 0 has the codes 10 and 20, point 1 11 and 21.

@@ -116,8 +116,8 @@ fn binary(bytes: &[u8]) -> Result<Vec<Group<'_>>, Refusal> {
     while reader.at < bytes.len() {
         let at = reader.at;
         let group = reader.group(is_old).ok_or_else(|| {
-            let place = format!("byte {}", BINARY.len() + at);
-            Refusal::new(place, "a group that is cut off or has an unknown code", "a whole binary DXF file")
+            let location = format!("byte {}", BINARY.len() + at);
+            Refusal::new(location, "a truncated group or an unknown code", "a complete binary DXF file")
         })?;
         groups.push(Group { position: BINARY.len() + at, ..group });
         if group.begins("EOF") {

@@ -22,7 +22,7 @@ impl Record<'_> {
     }
 
     /// `LWPOLYLINE 2F`, by its handle, else by its line.
-    pub(crate) fn place(&self) -> String {
+    pub(crate) fn location(&self) -> String {
         match self.groups.iter().find(|group| group.code == 5) {
             Some(handle) => format!("{} {}", self.kind(), handle.text()),
             None => format!("{} at line {}", self.kind(), self.head.position),
@@ -89,7 +89,7 @@ impl<'a> File<'a> {
                 return Err(Refusal::new(
                     "end of the file",
                     "a section without an end",
-                    "a whole file: this one is cut off",
+                    "a complete file: this one is truncated",
                 ));
             };
             let (section, after) = after.split_at(end);

@@ -193,8 +193,8 @@ fn what_encloses_nothing_is_counted_by_its_kind() {
 fn units_are_those_of_the_header_and_places_those_of_handles() {
     let drawing = drawn("0 CIRCLE; 5 2F; 10 3; 20 4; 40 2; 0 CIRCLE; 10 3; 20 4; 40 2");
     assert_eq!(drawing.unit.as_ref().map(|unit| (unit.name.as_str(), unit.meters)), Some(("mm", 1e-3)));
-    assert_eq!(drawing.entities[0].place, "CIRCLE 2F");
-    assert_eq!(drawing.entities[1].place, "CIRCLE at line 68");
+    assert_eq!(drawing.entities[0].location, "CIRCLE 2F");
+    assert_eq!(drawing.entities[1].location, "CIRCLE at line 68");
     let old = lines("0 SECTION; 2 ENTITIES; 0 CIRCLE; 10 3; 20 4; 40 2; 0 ENDSEC; 0 EOF");
     assert!(read(old.as_bytes(), None, None).unwrap().unit.is_none());
 }
@@ -252,7 +252,7 @@ fn bad_files_are_refused_with_place_and_reason() {
         (
             "",
             "0 CIRCLE; 5 2F; 10 3; 20 4",
-            "CIRCLE 2F: found an entity that is cut short, expected a value behind group code 40",
+            "CIRCLE 2F: found a truncated entity, expected a value behind group code 40",
         ),
         (
             "",

@@ -43,7 +43,7 @@ pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>
     let threshold = options.threshold.unwrap_or(THRESHOLD);
     if !(threshold > 0.0 && threshold < 1.0) {
         return Err(vec![Refusal {
-            place: "threshold".into(),
+            location: "threshold".into(),
             found: format!("{threshold}"),
             expected: "a gray value above 0 (black) and below 1 (white)".into(),
         }]);
@@ -68,7 +68,7 @@ pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>
     }
     if rough > 0 {
         notes.push(format!(
-            "at {rough} narrow places smooth walls would cross: the straight edges of the contour are kept there; a finer image has fewer"
+            "at {rough} narrow points smooth walls would cross: the straight edges of the contour are kept there; a finer image has fewer"
         ));
     }
     Ok(Drawing {

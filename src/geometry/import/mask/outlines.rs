@@ -126,14 +126,14 @@ fn entity(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>], Grain { first
         Some((center, radius)) => Outline::Disc { center, radius },
         None => Outline::Area { rings: rings.into_iter().map(|(ring, _)| ring).collect(), rule: FillRule::EvenOdd },
     };
-    let place = lines.get(first).and_then(|line| line.crossings.first()).map_or_else(
+    let location = lines.get(first).and_then(|line| line.crossings.first()).map_or_else(
         || "the edge of the image".to_owned(),
         |&at| {
             let p = grid.center(at.solid as usize);
             format!("pixel ({}, {})", p.x.floor(), grid.solid.height as f64 - 1.0 - p.y.floor())
         },
     );
-    Entity { outline, paint: Paint::Filled, place }
+    Entity { outline, paint: Paint::Filled, location }
 }
 
 /// The line of the grain that contains each hole: to the left of its first pixel, the next line is that of the grain, or of another hole of the same grain
@@ -224,8 +224,8 @@ fn edge_groups(grid: &Grid<'_>, lines: &[Line]) -> Vec<usize> {
 fn edge_owner(grid: &Grid<'_>, lines: &[Line], group: &[usize], row: usize) -> usize {
     let starts = ends(grid, lines);
     let at = edge_position(grid, grid.center(row));
-    let place = starts.partition_point(|start| start.0 < at);
-    starts.get(place).or(starts.first()).map_or(lines.len(), |start| group[start.1])
+    let location = starts.partition_point(|start| start.0 < at);
+    starts.get(location).or(starts.first()).map_or(lines.len(), |start| group[start.1])
 }
 
 /// Rings of the grains that leave the image, closed outside it, each with the index of its first line and all its lines.

@@ -43,7 +43,7 @@ impl Solid {
 }
 
 fn refusal(found: impl Into<String>, expected: impl Into<String>) -> Refusal {
-    Refusal { place: "the image".into(), found: found.into(), expected: expected.into() }
+    Refusal { location: "the image".into(), found: found.into(), expected: expected.into() }
 }
 
 /// Reads PNG or TIFF, as detected from the first bytes.
@@ -54,7 +54,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Gray, Refusal> {
         tiff(bytes)?
     } else {
         return Err(refusal(
-            "neither PNG nor TIFF by its first bytes",
+            "neither PNG nor TIFF, judging by its first bytes",
             "a PNG or TIFF file; convert the image to one of them",
         ));
     };
@@ -63,7 +63,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Gray, Refusal> {
         Some(i) => {
             let (row, column) = (gray.height - 1 - i / gray.width, i % gray.width);
             Err(Refusal {
-                place: format!("pixel ({column}, {row}) from the upper left"),
+                location: format!("pixel ({column}, {row}) from the upper left"),
                 found: "a value that is not a number".into(),
                 expected: "numbers from 0 (black) to 1 (white)".into(),
             })
@@ -86,7 +86,7 @@ fn check_size(width: u32, height: u32) -> Result<(), Refusal> {
 }
 
 fn png(bytes: &[u8]) -> Result<Gray, Refusal> {
-    let unreadable = |error: image::ImageError| refusal(error.to_string(), "a PNG file that is whole: export it again");
+    let unreadable = |error: image::ImageError| refusal(error.to_string(), "a complete PNG file: export it again");
     let size = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png).into_dimensions().map_err(unreadable)?;
     check_size(size.0, size.1)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
@@ -119,8 +119,7 @@ fn on_white(value: f32, alpha: f32) -> f32 {
 }
 
 fn tiff(bytes: &[u8]) -> Result<Gray, Refusal> {
-    let unreadable =
-        |error: TiffError| refusal(error.to_string(), "a TIFF file that is whole: export it again, or as PNG");
+    let unreadable = |error: TiffError| refusal(error.to_string(), "a complete TIFF file: export it again, or as PNG");
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(unreadable)?;
     let size = decoder.dimensions().map_err(unreadable)?;
     check_size(size.0, size.1)?;
@@ -279,7 +278,7 @@ impl Gray {
         const FAR: f64 = 0.1;
         if (f64::from(middle) - threshold).abs() > FAR {
             notes.push(format!(
-                "the commonest gray values are {dark:.2} and {bright:.2}; a threshold of {middle:.2}, halfway, keeps blurred walls in place"
+                "the commonest gray values are {dark:.2} and {bright:.2}; a threshold of {middle:.2}, halfway, leaves blurred walls unshifted"
             ));
         }
         let threshold = threshold as f32;

@@ -11,7 +11,7 @@ impl Lines {
     }
 
     /// `line 12`.
-    pub(crate) fn place(&self, node: Node) -> String {
+    pub(crate) fn location(&self, node: Node) -> String {
         format!("line {}", self.0.partition_point(|&start| start <= node.range().start))
     }
 }

@@ -25,14 +25,14 @@ pub(crate) fn read(text: &str, layers: Option<&[String]>) -> Result<Drawing, Vec
     check_entities(text).map_err(|refusal| vec![refusal])?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
-        let place = format!("line {}", error.pos().row);
-        vec![Refusal::new(place, error.to_string(), "an SVG document (well-formed XML)")]
+        let location = format!("line {}", error.pos().row);
+        vec![Refusal::new(location, error.to_string(), "an SVG document (well-formed XML)")]
     })?;
     let lines = Lines::of(text);
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         let found = format!("the element `{}`", root.tag_name().name());
-        return Err(vec![Refusal::new(lines.place(root), found, "`svg` as the outermost element")]);
+        return Err(vec![Refusal::new(lines.location(root), found, "`svg` as the outermost element")]);
     }
     walk::drawing(&document, &lines, text.len(), layers)
 }
@@ -49,12 +49,12 @@ fn check_entities(text: &str) -> Result<(), Refusal> {
     // Nested entities are not needed by any drawing program, and grow exponentially with their depth.
     let is_nested = declared.split("<!ENTITY").skip(1).any(|entity| entity.contains('&') && !entity.contains("&#"));
     if is_nested {
-        return Err(refusal("entities made of entities"));
+        return Err(refusal("nested entities"));
     }
     let longest = declared.split("<!ENTITY").map(str::len).max().unwrap_or(0);
     let references = rest.matches('&').count();
     if references.saturating_mul(longest) > LARGEST_ENTITIES * text.len() {
-        return Err(refusal("entities that stand for more than ten times the text of the file"));
+        return Err(refusal("entities that expand to more than ten times the text of the file"));
     }
     Ok(())
 }

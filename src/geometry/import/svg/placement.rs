@@ -42,7 +42,7 @@ pub(crate) fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<
         _ => {}
     });
     if let Some(found) = refused {
-        return Err((found, "sizes and places as attributes of the element, and `transform`"));
+        return Err((found, "sizes and positions as attributes of the element, and `transform`"));
     }
     let Some((source, text)) = transform else { return Ok(Affine::identity()) };
     let own = match source {

@@ -270,8 +270,8 @@ fn layers_are_chosen_by_label_or_id_and_counted() {
 #[test]
 fn entities_know_their_line() {
     let drawing = drawn("<g>\n<circle r='1'/>\n</g>\n<path\n d='M0 0h3v3z'/>");
-    let places: Vec<_> = drawing.entities.iter().map(|entity| entity.place.as_str()).collect();
-    assert_eq!(places, ["line 3", "line 5"]);
+    let locations: Vec<_> = drawing.entities.iter().map(|entity| entity.location.as_str()).collect();
+    assert_eq!(locations, ["line 3", "line 5"]);
 }
 
 #[test]
@@ -318,7 +318,7 @@ fn bad_files_are_refused_with_line_and_reason() {
         (
             "<!DOCTYPE svg [<!ENTITY a \"x\"><!ENTITY b \"&a;&a;\">]><svg xmlns='http://www.w3.org/2000/svg'/>",
             "",
-            "DOCTYPE: found entities made of entities",
+            "DOCTYPE: found nested entities",
         ),
     ];
     for (text, content, expected) in cases {

@@ -51,7 +51,7 @@ pub(crate) fn drawing(
     let root = document.root_element();
     let page = Page::of(root).map_err(|found| {
         let expected = "lengths above 0 with one of the units mm, cm, in, pt, pc, px or none";
-        vec![Refusal::new(lines.place(root), found, expected)]
+        vec![Refusal::new(lines.location(root), found, expected)]
     })?;
     let sheet = StyleSheet::of(document);
     if let Some(selector) = sheet.overfull() {
@@ -83,7 +83,7 @@ pub(crate) fn drawing(
         refusals: Vec::new(),
         is_over: false,
     };
-    let start = Place {
+    let start = Context {
         map: page.map,
         viewport: page.viewport,
         style: Style::default(),
@@ -95,13 +95,13 @@ pub(crate) fn drawing(
     if walk.map(root, Viewport { size: None }).is_some_and(|map| map != Affine::identity()) {
         walk.refuse(root, "a transform of the page", "transforms of groups and shapes: put all into a group (`g`)");
     }
-    walk.children(root, &Place { style, ..start.clone() });
+    walk.children(root, &Context { style, ..start.clone() });
     walk.finish()
 }
 
 /// Properties that an element inherits from its parents.
 #[derive(Clone)]
-struct Place<'a> {
+struct Context<'a> {
     map: Affine,
     viewport: Viewport,
     style: Style,
@@ -136,20 +136,20 @@ struct Walk<'a, 'input> {
 
 impl<'a, 'input> Walk<'a, 'input> {
     fn refuse(&mut self, node: Node, found: impl Into<String>, expected: &str) {
-        self.refusals.push(Refusal::new(self.lines.place(node), found, expected));
+        self.refusals.push(Refusal::new(self.lines.location(node), found, expected));
     }
 
     fn count(&mut self, kind: &str) {
         *self.drawing.unused.entry(kind.to_owned()).or_default() += 1;
     }
 
-    fn children(&mut self, node: Node<'a, 'input>, place: &Place<'a>) {
+    fn children(&mut self, node: Node<'a, 'input>, context: &Context<'a>) {
         for child in node.children().filter(Node::is_element) {
-            self.element(child, place);
+            self.element(child, context);
         }
     }
 
-    fn element(&mut self, node: Node<'a, 'input>, parent: &Place<'a>) {
+    fn element(&mut self, node: Node<'a, 'input>, parent: &Context<'a>) {
         self.is_over |= self.refusals.len() >= MOST_REFUSALS;
         let is_foreign = node.tag_name().namespace().is_some_and(|space| space != SVG);
         if self.is_over || is_foreign {
@@ -168,30 +168,30 @@ impl<'a, 'input> Walk<'a, 'input> {
         }
         let Some(own) = self.map(node, parent.viewport) else { return };
         let style = parent.style.of_child(node, self.sheet);
-        let mut place = Place { map: parent.map.after(&own), style, depth: parent.depth + 1, ..parent.clone() };
+        let mut context = Context { map: parent.map.after(&own), style, depth: parent.depth + 1, ..parent.clone() };
         if style.is_removed {
             return self.count("hidden elements");
         }
         self.tally.clipped += usize::from(style.is_clipped);
         match name {
             "g" | "a" => {
-                self.enter_layer(node, parent, &mut place);
-                self.children(node, &place);
+                self.enter_layer(node, parent, &mut context);
+                self.children(node, &context);
             }
             "switch" => {
                 let is_shown = |child: &Node| child.is_element() && child.attribute("requiredExtensions").is_none();
                 if let Some(child) =
                     node.children().find(|child| is_shown(child) && child.tag_name().name() != "foreignObject")
                 {
-                    self.element(child, &place);
+                    self.element(child, &context);
                 }
             }
-            "svg" => self.nested_page(node, place),
-            "use" => self.copy(node, place),
+            "svg" => self.nested_page(node, context),
+            "use" => self.copy(node, context),
             "text" | "image" | "foreignObject" => self.count(name),
             _ if shape::SHAPES.contains(&name) => {
-                self.choose(node, &mut place);
-                self.shape(node, &place);
+                self.choose(node, &mut context);
+                self.shape(node, &context);
             }
             _ => {}
         }
@@ -213,45 +213,45 @@ impl<'a, 'input> Walk<'a, 'input> {
         [node.attribute((INKSCAPE, "label")), node.attribute("id")]
     }
 
-    fn choose(&mut self, node: Node<'a, 'input>, place: &mut Place) {
+    fn choose(&mut self, node: Node<'a, 'input>, context: &mut Context) {
         for (i, layer) in self.layers.unwrap_or_default().iter().enumerate() {
             if Self::names(node).contains(&Some(layer.as_str())) {
                 self.found_layers[i] = true;
-                place.is_chosen = true;
+                context.is_chosen = true;
             }
         }
     }
 
-    fn enter_layer(&mut self, node: Node<'a, 'input>, parent: &Place<'a>, place: &mut Place<'a>) {
-        self.choose(node, place);
+    fn enter_layer(&mut self, node: Node<'a, 'input>, parent: &Context<'a>, context: &mut Context<'a>) {
+        self.choose(node, context);
         let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
         if is_layer || parent.layer.is_none() {
             let [label, id] = Self::names(node);
-            place.layer = label.or(id).or(parent.layer);
+            context.layer = label.or(id).or(parent.layer);
         }
     }
 
-    fn nested_page(&mut self, node: Node<'a, 'input>, mut place: Place<'a>) {
-        let size = self.viewport(node, node, &mut place);
+    fn nested_page(&mut self, node: Node<'a, 'input>, mut context: Context<'a>) {
+        let size = self.viewport(node, node, &mut context);
         if size.is_some() {
-            self.children(node, &place);
+            self.children(node, &context);
         }
     }
 
     /// Sets up the viewport of `node`; width and height may be those of the `use` that copies it.
-    fn viewport(&mut self, node: Node<'a, 'input>, sized: Node<'a, 'input>, place: &mut Place) -> Option<()> {
-        let side = |name: &str, along| match place.viewport.length(sized, name, along)? {
+    fn viewport(&mut self, node: Node<'a, 'input>, sized: Node<'a, 'input>, context: &mut Context) -> Option<()> {
+        let side = |name: &str, along| match context.viewport.length(sized, name, along)? {
             Some(length) => Ok(Some(length)),
-            None => place.viewport.length(node, name, along),
+            None => context.viewport.length(node, name, along),
         };
         let read = || {
             let corner =
-                [("x", Along::X), ("y", Along::Y)].map(|(name, along)| place.viewport.length(node, name, along));
+                [("x", Along::X), ("y", Along::Y)].map(|(name, along)| context.viewport.length(node, name, along));
             let [x, y] = corner;
             let corner = Vec2::new(x?.unwrap_or(0.0), y?.unwrap_or(0.0));
             let size = [side("width", Along::X)?, side("height", Along::Y)?];
             let view_box = page::view_box(node)?;
-            let outer = place.viewport.size.or(view_box.map(|view_box| Vec2::new(view_box.w, view_box.h)));
+            let outer = context.viewport.size.or(view_box.map(|view_box| Vec2::new(view_box.w, view_box.h)));
             let size = outer.map(|outer| Vec2::new(size[0].unwrap_or(outer.x), size[1].unwrap_or(outer.y)));
             let inner = match (view_box, size) {
                 (Some(view_box), Some(size)) => {
@@ -264,8 +264,8 @@ impl<'a, 'input> Walk<'a, 'input> {
         };
         match read() {
             Ok((map, viewport)) => {
-                place.map = place.map.after(&map);
-                place.viewport = viewport;
+                context.map = context.map.after(&map);
+                context.viewport = viewport;
                 Some(())
             }
             Err(found) => {
@@ -275,8 +275,8 @@ impl<'a, 'input> Walk<'a, 'input> {
         }
     }
 
-    fn copy(&mut self, node: Node<'a, 'input>, mut place: Place<'a>) {
-        self.choose(node, &mut place);
+    fn copy(&mut self, node: Node<'a, 'input>, mut context: Context<'a>) {
+        self.choose(node, &mut context);
         let href = node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).unwrap_or_default().trim();
         let Some(&target) = href.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
             let found = format!("use of `{}`", page::shortened(href));
@@ -286,20 +286,20 @@ impl<'a, 'input> Walk<'a, 'input> {
             let found = format!("`{}` copies itself", page::shortened(href));
             return self.refuse(node, found, "copies (`use`) of other elements");
         }
-        let corner = [("x", Along::X), ("y", Along::Y)].map(|(name, along)| place.viewport.length(node, name, along));
+        let corner = [("x", Along::X), ("y", Along::Y)].map(|(name, along)| context.viewport.length(node, name, along));
         let [Ok(x), Ok(y)] = corner else {
-            return self.refuse(node, "x or y that is no length", "a length");
+            return self.refuse(node, "x or y that is not a length", "a length");
         };
-        place.map = place.map.after(&Affine::translation(Vec2::new(x.unwrap_or(0.0), y.unwrap_or(0.0))));
+        context.map = context.map.after(&Affine::translation(Vec2::new(x.unwrap_or(0.0), y.unwrap_or(0.0))));
         self.copying.push(target);
         if matches!(target.tag_name().name(), "symbol" | "svg") {
-            place.style = place.style.of_child(target, self.sheet);
-            place.map = place.map.after(&self.map(target, place.viewport).unwrap_or_else(Affine::identity));
-            if self.viewport(target, node, &mut place).is_some() {
-                self.children(target, &place);
+            context.style = context.style.of_child(target, self.sheet);
+            context.map = context.map.after(&self.map(target, context.viewport).unwrap_or_else(Affine::identity));
+            if self.viewport(target, node, &mut context).is_some() {
+                self.children(target, &context);
             }
         } else {
-            self.element(target, &place);
+            self.element(target, &context);
         }
         self.copying.pop();
     }

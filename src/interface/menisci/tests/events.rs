@@ -110,10 +110,10 @@ fn length_between(surface: &[Curve], from: Vec2, to: Vec2) -> f64 {
         let mut before = 0.0;
         let mut best = (f64::INFINITY, 0.0);
         for curve in surface {
-            let foot = curve.project(x);
-            let miss = (foot.point - x).norm();
+            let closest = curve.project(x);
+            let miss = (closest.point - x).norm();
             if miss < best.0 {
-                best = (miss, before + foot.u * curve.length());
+                best = (miss, before + closest.u * curve.length());
             }
             before += curve.length();
         }

@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use super::{Place, Walk};
+use super::{Context, Walk};
 use crate::geometry::import::closing::{Closed, close};
 use crate::geometry::import::drawing::{Entity, FillRule, Outline, Paint, Ring};
 use crate::geometry::import::svg::shape;
@@ -11,31 +11,31 @@ use crate::math::Vec2;
 
 impl<'a, 'input> Walk<'a, 'input> {
     /// Adds a shape to the drawing, or counts it as unused by the reason.
-    pub(super) fn shape(&mut self, node: Node<'a, 'input>, place: &Place<'a>) {
-        let style = place.style;
+    pub(super) fn shape(&mut self, node: Node<'a, 'input>, context: &Context<'a>) {
+        let style = context.style;
         if !style.is_visible || (style.fill == Fill::None && !style.has_stroke) {
             return self.count("hidden elements");
         }
-        if let Some(layer) = place.layer {
+        if let Some(layer) = context.layer {
             *self.drawing.layers.entry(layer.to_owned()).or_default() += 1;
         }
-        if !place.is_chosen {
+        if !context.is_chosen {
             return self.count("elements on other layers");
         }
-        let subpaths = match shape::contours(node, place.viewport) {
+        let subpaths = match shape::contours(node, context.viewport) {
             Ok(subpaths) => subpaths,
             Err(found) => {
                 return self.refuse(
                     node,
                     found,
-                    "numbers as SVG has them, lengths with a unit or none, sizes of 0 or more",
+                    "numbers in SVG syntax, lengths with a unit or none, sizes of 0 or more",
                 );
             }
         };
         let mut rings = Vec::new();
         let mut circles = Vec::new();
         for subpath in subpaths {
-            let pieces: Vec<_> = subpath.pieces.iter().map(|piece| piece.mapped(&place.map)).collect();
+            let pieces: Vec<_> = subpath.pieces.iter().map(|piece| piece.mapped(&context.map)).collect();
             if !pieces.iter().all(|piece| piece.is_in_range()) {
                 return self.refuse(node, "a coordinate out of range", "coordinates below 1e38 after all transforms");
             }
@@ -77,11 +77,11 @@ impl<'a, 'input> Walk<'a, 'input> {
         };
         self.tally.strokes += usize::from(style.fill != Fill::None && style.has_stroke);
         let paint = match style.fill {
-            Fill::None => Paint::Unfilled { layer: place.layer.unwrap_or_default().to_owned() },
+            Fill::None => Paint::Unfilled { layer: context.layer.unwrap_or_default().to_owned() },
             Fill::White => Paint::White,
             Fill::Other => Paint::Filled,
         };
-        self.drawing.entities.push(Entity { outline, paint, place: self.lines.place(node) });
+        self.drawing.entities.push(Entity { outline, paint, location: self.lines.location(node) });
     }
 }
 

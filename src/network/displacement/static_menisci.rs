@@ -23,7 +23,7 @@ use crate::network::graph::{Network, Pores};
 
 /// An interface between two elements.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Standing {
+pub(crate) struct StaticMeniscus {
     /// Elements of the invading and of the defending phase.
     pub(crate) between: [usize; 2],
     /// From the left wall to the right one in m, the defending phase on its left.
@@ -43,7 +43,7 @@ pub(crate) struct Standing {
 /// All interfaces, and the boundary of the invading phase.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Interfaces {
-    pub(crate) menisci: Vec<Standing>,
+    pub(crate) menisci: Vec<StaticMeniscus>,
     /// The boundary of the invading phase in m, the phase on its left: along walls, then along menisci.
     pub(crate) outline: Vec<Curve>,
     /// For each element the curvature in 1/m of the menisci around its trapped phase; NaN if not trapped.
@@ -137,7 +137,7 @@ impl Displacement {
     pub(crate) fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
         let mesh = &self.mesh;
         let trapped = self.trapped_curvatures();
-        let mut menisci = self.standing(applied, &trapped);
+        let mut menisci = self.static_menisci(applied, &trapped);
         let is_invaded: Vec<bool> = mesh.element_of.iter().map(|&element| self.invaded[element]).collect();
         let chains = WallChains::new(mesh, &is_invaded, bounds, periodic);
         let walls = loop {
@@ -169,7 +169,7 @@ impl Displacement {
     }
 
     /// The interfaces in all gates between the phases; `trapped` are the curvatures of trapped elements.
-    fn standing(&self, applied: f64, trapped: &[f64]) -> Vec<Standing> {
+    fn static_menisci(&self, applied: f64, trapped: &[f64]) -> Vec<StaticMeniscus> {
         let mesh = &self.mesh;
         let joined = self.joined();
         let is_joined = |front: (usize, usize)| joined.iter().any(|pair| pair.gates.contains(&front));
@@ -197,12 +197,12 @@ impl Displacement {
     }
 
     /// The meniscus of a passage at a curvature, or the chords of its gates.
-    fn at(&self, passage: &Passage, curvature: f64, gates: &[(usize, usize)]) -> Vec<Standing> {
+    fn at(&self, passage: &Passage, curvature: f64, gates: &[(usize, usize)]) -> Vec<StaticMeniscus> {
         let found = passage.at(curvature).filter(|it: &Meniscus| it.bend.abs() < PI && it.chord() > 0.0);
         let Some(meniscus) = found else { return gates.iter().map(|&gate| self.chord(gate)).collect() };
         let is_one = gates.len() == 1;
         let advance = |length: f64| if is_one { length } else { f64::INFINITY };
-        vec![Standing {
+        vec![StaticMeniscus {
             curve: meniscus.curve(),
             curvature: Some(meniscus.curvature),
             bend: meniscus.bend,
@@ -214,10 +214,10 @@ impl Displacement {
     }
 
     /// The chord of a gate as a substitute for its meniscus.
-    fn chord(&self, (gate, to): (usize, usize)) -> Standing {
-        let sides = self.mesh.gates[gate].places;
+    fn chord(&self, (gate, to): (usize, usize)) -> StaticMeniscus {
+        let sides = self.mesh.gates[gate].crossings;
         let crossing = self.mesh.loops[sides[to].0].crossings[sides[to].1];
-        Standing {
+        StaticMeniscus {
             between: [sides[1 - to].0, sides[to].0],
             // The wall on the left continues at the end of the crossing.
             curve: Curve::Segment { a: crossing.to, b: crossing.from },
@@ -256,7 +256,7 @@ impl Displacement {
     }
 
     /// Area of the invading phase in m²: within its outline (Green), or by elements plus areas swept past gates.
-    fn invading_area(&self, outline: &[Curve], menisci: &[Standing], periodic: [bool; 2]) -> Option<f64> {
+    fn invading_area(&self, outline: &[Curve], menisci: &[StaticMeniscus], periodic: [bool; 2]) -> Option<f64> {
         let mesh = &self.mesh;
         let holds = |index: usize| self.invaded[mesh.element_of[index]];
         if periodic == [false; 2] {

@@ -5,7 +5,7 @@ use crate::sph::particles::{Particles, Phase};
 
 /// Initial positions of the particles.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Places {
+pub struct Positions {
     /// Positions of fluid particles in m.
     pub fluid: Vec<Vec2>,
     /// Positions of wall particles in m.
@@ -14,7 +14,7 @@ pub struct Places {
     pub depth: Vec<f64>,
 }
 
-impl Places {
+impl Positions {
     pub(super) fn push_wall(&mut self, x: Vec2, depth: f64) {
         self.walls.push(x);
         self.depth.push(depth);
