@@ -195,7 +195,7 @@ fn the_tables_of_keys_are_those_of_the_schemas() {
             std::fs::write(root().join(path), &expected).unwrap();
         } else {
             let stale = page.lines().zip(expected.lines()).find(|(line, expected)| line != expected);
-            assert!(page == expected, "{path} is stale; write it by MENISCUS_BLESS=1: {stale:?}");
+            assert!(page == expected, "{path} is stale, MENISCUS_BLESS=1 cargo test --test docs writes it: {stale:?}");
         }
     }
 }
