@@ -282,7 +282,8 @@ def stale(root: Path) -> list[str]:
     stored = {
         path.stem: path.read_text(encoding="utf-8").splitlines(keepends=True) for path in (root / RESULTS).glob("*.csv")
     }
-    found = [f"{name}: on no page, or not stored" for name in sorted(shown ^ stored.keys())]
+    found = [f"{name}: stored, and on no page" for name in sorted(stored.keys() - shown)]
+    found += [f"{name}: on a page, and not stored" for name in sorted(shown - stored.keys())]
     on_pages = {block[2] for _, block in blocks(root)}
     found += [f"{LAYOUTS.as_posix()}: no page shows [{name}]" for name in sorted(layouts(root).keys() - on_pages)]
     for name, lines in sorted(stored.items()):

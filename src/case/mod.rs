@@ -17,7 +17,7 @@ mod measure_groups;
 pub mod measures;
 pub mod network;
 mod network_options;
-mod numerics;
+pub(crate) mod numerics;
 mod open;
 mod output;
 mod permeability;

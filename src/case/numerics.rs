@@ -58,7 +58,7 @@ words! {
 
 /// Defaults by the kind of flow. The paper's surface force orders its particles by background pressure and the density-error correction in the
 /// pressure equation, the others by shifting and either that correction or the one by shifting (docs/numerics).
-pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
+pub(crate) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     let (density_error_correction, density_error_shifting, background_pressure, shifting, anti_clustering) =
         match surface_force {
             Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0, 0.0),

@@ -24,7 +24,7 @@ pub enum ShapeFileError {
         source: std::io::Error,
     },
     /// The file extension is unknown.
-    #[error("the shape file {} has none of the endings .toml (shapes), .xyr, .discs, .txt, .csv (discs), .wkt, .geojson, .json, .shp, .svg, .dxf (drawings), .png, .tif, .tiff (masks)", path.display())]
+    #[error("the shape file {} has none of the endings {}", path.display(), Format::endings())]
     Ending {
         /// Absolute path.
         path: PathBuf,

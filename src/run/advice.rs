@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn the_sentence_names_the_model_that_can_answer() {
-        assert!(sentence(&known()).contains("direct simulation can answer"));
+        assert!(sentence(&known()).contains("the direct simulation is feasible"));
         let coarse = Advice { spacings_across: 2.0, coarse_throats: 12, ..known() };
         assert!(sentence(&coarse).starts_with(
             "2.0 spacings across the narrowest throat at this spacing: use the network, and verify the 12"

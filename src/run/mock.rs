@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::simulation::{Progress, Watcher};
 use crate::case::{
-    Case, Compression, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides,
-    Sph, ViscousStep, ViscousTerm, Walls,
+    Case, Compression, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Output, Side, Sides, Sph,
+    Walls, numerics,
 };
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::math::{Vec2, perpendicular};
@@ -179,20 +179,7 @@ pub(crate) fn case() -> Case {
             network: None,
             velocity: InitialVelocity::Rest,
         },
-        numerics: Numerics {
-            viscous_term: ViscousTerm::Szewc,
-            viscous_step: ViscousStep::Implicit,
-            density_error_correction: 0.02,
-            density_error_shifting: 0.0,
-            background_pressure: 0.0,
-            shifting: 0.0,
-            anti_clustering: 0.0,
-            wall_stretch: 1.5,
-            fitted_walls: true,
-            fitted_interface: false,
-            pressure_tolerance: 1.0e-6,
-            time_step_factor: 1.0,
-        },
+        numerics: numerics::default(None),
         measure: MeasureSet::default(),
     };
     Case {

@@ -148,7 +148,7 @@ impl Method {
         (displacement > OVERSHOOT * allowed).then(|| dt * (allowed / displacement).sqrt())
     }
 
-    /// The smallest accepted Δt in s.
+    /// The smallest accepted Δt in s, a share of the limits in [`Self::time_step`]: a limit that can be far below these belongs there.
     pub(crate) fn smallest_time_step(&self, viscous_rate: f64) -> f64 {
         let step = self.time_step(0.0, viscous_rate).dt;
         if step.is_finite() { COLLAPSE * step } else { 0.0 }

@@ -24,7 +24,7 @@ pub fn compare(path: &str, expected: &str) {
     }
     let page = text(path);
     let stale = page.lines().zip(expected.lines()).find(|(line, expected)| line != expected);
-    assert!(page == expected, "{path} is stale; write it by MENISCUS_BLESS=1: {stale:?}");
+    assert!(page == expected, "{path} is stale, MENISCUS_BLESS=1 cargo test --test docs writes it: {stale:?}");
 }
 
 /// A Markdown table.

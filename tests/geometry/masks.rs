@@ -297,7 +297,7 @@ fn what_is_no_mask_is_refused_with_a_way_out() {
         (&stack, "a stack of images"),
         (&bomb, "32000 x 32000 pixels"),
         (&plain, "all on one side of the threshold"),
-        (&half[..half.len() / 2], "whole"),
+        (&half[..half.len() / 2], "a complete PNG file"),
     ] {
         let refusals = read(bytes, &MaskOptions::default()).unwrap_err();
         assert!(refusals[0].to_string().contains(wanted), "{}", refusals[0]);

@@ -30,7 +30,7 @@ const WITHOUT_NUMBER: [&str; 11] = [
 const OF_OPTIONS: [&str; 4] = [
     "the unit of the drawing is not known",
     "there is no unit `",
-    "`unit` says nothing of",
+    "`unit` does not apply to",
     "no shape reaches into the domain",
 ];
 

@@ -47,6 +47,8 @@ fn with_mistakes(snippet: &str) -> String {
     written
 }
 
+const BLESS: &str = "where right is as meant, MENISCUS_BLESS=1 cargo test --test program bad_drawings writes it";
+
 #[test]
 fn every_bad_drawing_gives_the_mistakes_it_names() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-input/drawings.table");
@@ -59,7 +61,7 @@ fn every_bad_drawing_gives_the_mistakes_it_names() {
     }
     for (number, (snippet, found)) in snippets.iter().zip(&found).enumerate() {
         assert!(found.contains("\n#!"), "snippet {}: no mistake found", number + 1);
-        assert_eq!(snippet, found, "snippet {}", number + 1);
+        assert_eq!(snippet, found, "snippet {}; {BLESS}", number + 1);
     }
     assert!(snippets.len() >= 20, "{} bad drawings", snippets.len());
 }

@@ -121,6 +121,8 @@ fn with_messages(snippet: &str, is_shape_file: bool) -> String {
     written
 }
 
+const BLESS: &str = "where right is as meant, MENISCUS_BLESS=1 cargo test --test program case_files writes it";
+
 #[test]
 fn every_bad_snippet_gives_the_messages_it_names() {
     let mut count = 0;
@@ -136,7 +138,7 @@ fn every_bad_snippet_gives_the_messages_it_names() {
         }
         for (number, (snippet, found)) in snippets.iter().zip(&found).enumerate() {
             assert!(found.contains("#^") || found.contains("#!"), "{name}, snippet {}: no mistake found", number + 1);
-            assert_eq!(snippet, found, "{name}, snippet {}", number + 1);
+            assert_eq!(snippet, found, "{name}, snippet {}; {BLESS}", number + 1);
         }
         count += snippets.len();
     }

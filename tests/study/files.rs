@@ -2,7 +2,7 @@
 //!
 //! `tests/bad-study/*.snippets`: whole study files split by `+++` lines, beside a case `drop.toml`, a network `pack.toml`, a table `t.csv` and a
 //! table `ragged.csv`. `#^ message` below a line: this mistake at that line; messages are told up to a given length, so that
-//! lists of known names may grow. `MENISCUS_BLESS=1 cargo test --test study files` writes the messages anew: read them.
+//! lists of known names may grow. `MENISCUS_BLESS=1 cargo test --test study files::` writes the messages anew: read them.
 
 use std::path::Path;
 
@@ -70,6 +70,8 @@ fn with_messages(snippet: &str) -> String {
     text
 }
 
+const BLESS: &str = "where right is as meant, MENISCUS_BLESS=1 cargo test --test study files:: writes it";
+
 #[test]
 fn every_bad_study_gives_the_messages_it_names() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-study/studies.snippets");
@@ -81,7 +83,7 @@ fn every_bad_study_gives_the_messages_it_names() {
     } else {
         for (number, (snippet, found)) in snippets.iter().zip(&found).enumerate() {
             assert!(found.contains("#^ "), "snippet {}: no mistake found", number + 1);
-            assert_eq!(snippet, found, "snippet {}", number + 1);
+            assert_eq!(snippet, found, "snippet {}; {BLESS}", number + 1);
         }
     }
     assert!(snippets.len() >= 20, "{} bad studies", snippets.len());

@@ -193,6 +193,6 @@ mod tests {
         let bad = read(&bytes, None).unwrap_err();
         assert!(bad[0].location == "record 1" && bad[0].found.contains("1000000000 points"), "{}", bad[0]);
         bytes.truncate(120);
-        assert!(read(&bytes, None).unwrap_err()[0].expected.contains("cut off"));
+        assert!(read(&bytes, None).unwrap_err()[0].expected.contains("truncated"));
     }
 }

@@ -23,8 +23,8 @@ pub(crate) enum Format {
     Mask,
 }
 
-/// Each format in order: its name in messages, and its file extensions.
-const FORMATS: [(Format, &str, &[&str]); 8] = [
+/// Each format: its name in messages, and its file extensions.
+const FORMATS: &[(Format, &str, &[&str])] = &[
     (Format::Toml, "a TOML shape file", &["toml"]),
     (Format::List, "a list of discs", &["xyr", "discs", "txt", "csv"]),
     (Format::Wkt, "well-known text", &["wkt"]),
@@ -42,8 +42,13 @@ impl Format {
         FORMATS.iter().find(|known| known.2.contains(&ending.as_str())).map(|known| known.0)
     }
 
+    /// The file extensions of all formats.
+    pub(crate) fn endings() -> String {
+        FORMATS.iter().flat_map(|known| known.2).map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ")
+    }
+
     /// The name of the format in messages.
     pub(crate) fn name(self) -> &'static str {
-        FORMATS[self as usize].1
+        FORMATS.iter().find(|known| known.0 == self).map_or("", |known| known.1)
     }
 }

@@ -1,4 +1,4 @@
-//! The equations of the paper, one function each, with sums over pairs as printed.
+//! The terms of the method, one function each: those of the paper with sums over pairs as printed, and those of others.
 //!
 //! Fields are slices with one entry per particle and image. Where the paper's sum runs over fluid particles only, the
 //! function takes `fluid_volume`: V_b on fluid, 0 on walls.
