@@ -282,10 +282,7 @@ fn what_does_not_fit_is_refused_with_file_and_reason() {
     let missing = refused(&["sph.initial.network=\"nowhere.json\""]);
     assert!(missing.contains("there is no file") && missing.contains("nowhere.json"), "{missing}");
     let damaged = refused(&[&file("damaged.json", &text[..text.len() / 2])]);
-    assert!(
-        damaged.contains("damaged.json is not a network state") && damaged.contains("line 1 column"),
-        "{damaged}"
-    );
+    assert!(damaged.contains("damaged.json is not a network state") && damaged.contains("line 1 column"), "{damaged}");
     let other = refused(&["geometry.file=\"../geometries/post-pack.toml\"", "sph.spacing=1e-6"]);
     assert!(other.contains("another geometry") && other.contains("domain"), "{other}");
     let mut moved = committed();

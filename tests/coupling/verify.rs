@@ -301,7 +301,9 @@ fn walls_with_other_films_than_the_network_computes_with_have_no_cut_out() {
     let (plane, chip) = (all_planned(&[]), all_planned(&["geometry.depth=1.5e-4"]));
     assert!(made(&plane) > 0 && made(&chip) < made(&plane));
     assert!(
-        chip.iter()
-            .any(|one| one.subdomain.as_ref().is_err_and(|why| why.to_string().contains("corner films of the network")))
+        chip.iter().any(|one| one
+            .subdomain
+            .as_ref()
+            .is_err_and(|why| why.to_string().contains("corner films of the network")))
     );
 }
