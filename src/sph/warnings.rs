@@ -181,8 +181,8 @@ fn limiting_angle(flow: &Flow) -> Option<String> {
     let angle = flow.config.method.wetting?.static_angle().to_degrees();
     is_limiting(angle).then(|| {
         format!(
-            "at an angle of {angle:.1} degrees pressures and positions are those requested, but an angle measured from the interface has an \
-             error bar of some degrees: within {LIMITING_ANGLE:.0} degrees of complete wetting or drying it hardly changes the shape"
+            "at an angle of {angle:.1} degrees pressures and positions are those requested if 12 spacings lie across a throat, but an angle measured from the \
+             interface has an error bar of some degrees: within {LIMITING_ANGLE:.0} degrees of complete wetting or drying it hardly changes the shape"
         )
     })
 }
