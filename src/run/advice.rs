@@ -219,7 +219,7 @@ mod tests {
         ));
         assert!(sentence(&Advice { hours: Some(100.0), ..known() }).contains("100 hours: use the network"));
         let pore = PoreNumbers { pore: "largest", radius_m: 1e-3, capillary: 0.1, viscous: 0.1, bond: 2.0 };
-        assert!(sentence(&Advice { numbers: vec![pore], ..known() }).contains("leaves gravity out"));
+        assert!(sentence(&Advice { numbers: vec![pore], ..known() }).contains("neglects gravity"));
         assert!(sentence(&Advice { hours: None, steps: None, ..known() }).starts_with("use the network"));
     }
 }

@@ -188,7 +188,7 @@ const OF_STATES: [&str; 4] = [
     "expected format",
     "expected the four numbers of a segment or the five of an arc",
     "a meniscus borders on element",
-    "is the state of another geometry",
+    "belongs to another geometry",
 ];
 
 /// The state of a network, as the direct simulation of its geometry that begins with it reads it.
