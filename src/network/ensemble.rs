@@ -321,7 +321,7 @@ impl Reference {
                 tables::numbers("y_m", centers().map(|center| center.y)),
                 tables::numbers("inscribed_radius_m", (0..pores).map(|pore| tables::radius(config, pore))),
                 tables::numbers("area_m2", config.pores.area.iter().copied()),
-                // Probability that a random place of the pore holds the invading phase when that reaches the outlet, or else at the end of the first
+                // Probability that a random point of the pore holds the invading phase when that reaches the outlet, or else at the end of the first
                 // half cycle
                 tables::numbers("invasion_probability", sums.iter().map(|[weighted, area]| weighted / area)),
             ],
