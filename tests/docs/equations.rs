@@ -16,24 +16,22 @@ struct Citation {
 impl Citation {
     /// The citations in brackets of a comment, and the comment without them.
     fn all(comment: &str, bibliography: &str) -> (Vec<Self>, String) {
-        let (mut found, mut rest) = (Vec::new(), String::new());
         let mut parts = comment.split('[');
-        rest += parts.next().unwrap_or_default();
+        let (mut found, mut rest) = (Vec::new(), parts.next().unwrap_or_default().to_owned());
+        let is_known = |inside: &str| {
+            let key = inside.split([',', ';']).next().unwrap_or_default();
+            bibliography.contains(&format!("{{{key},"))
+        };
         for part in parts {
-            let of = |text: &str| {
+            let Some((inside, after)) = part.split_once(']').filter(|(inside, _)| is_known(inside)) else {
+                rest += &format!("[{part}");
+                continue;
+            };
+            found.extend(inside.split(';').map(|text| {
                 let (key, passage) = text.split_once(',').unwrap_or((text, ""));
                 Self { key: key.trim().to_owned(), passage: passage.trim().to_owned() }
-            };
-            match part.split_once(']') {
-                Some((inside, after))
-                    if bibliography
-                        .contains(&format!("{{{},", of(inside.split(';').next().unwrap_or_default()).key)) =>
-                {
-                    found.extend(inside.split(';').map(of));
-                    rest = rest.trim_end().to_owned() + after;
-                }
-                _ => rest += &format!("[{part}"),
-            }
+            }));
+            rest = rest.trim_end().to_owned() + after;
         }
         (found, rest)
     }

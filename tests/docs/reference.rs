@@ -299,7 +299,7 @@ fn every_measure_is_described() {
             .flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()))
     });
     let known = known.chain(offer_of_comparison().names.iter().map(|name| (*name).to_owned()));
-    let place = "the names that `[[expect]]` knows (src/case/measures.rs, src/case/measure_groups.rs)";
+    let place = "the names that `[[expect]]` knows (src/case/measure_names.rs, src/case/measure_groups.rs)";
     tells_all(&known.collect(), &there, place);
 }
 

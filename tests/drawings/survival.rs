@@ -1,5 +1,6 @@
-//! Damaged copies of all files are read or refused: no panic, and shapes that make sense where there are any.
+//! Damaged copies of all files are read or refused: no panic, no hang, and shapes that make sense where there are any.
 
+use cpu_time::ThreadTime;
 use meniscus::geometry::import::Options;
 use meniscus::geometry::load;
 use proptest::prelude::*;
@@ -12,7 +13,7 @@ use crate::files::*;
 /// Most shapes that a file may expand to beside one for each of its bytes.
 const MOST_SHAPES: usize = 500_000;
 
-/// Damaged copies of a file of tests/drawings are read or refused.
+/// Damaged copies of a file of tests/drawings are read or refused, each in less than a second of this thread.
 fn survives_damage(name: &str, options: &Options) {
     let whole = std::fs::read(file(name)).unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -21,7 +22,11 @@ fn survives_damage(name: &str, options: &Options) {
     let outcome = runner.run(&damage(), |damages| {
         let bytes = damaged(&whole, &damages);
         std::fs::write(&path, &bytes).unwrap();
-        if let Ok(found) = load(&path, options) {
+        let clock = ThreadTime::now();
+        let found = load(&path, options);
+        let seconds = clock.elapsed().as_secs_f64();
+        prop_assert!(seconds < 1.0, "{seconds} s");
+        if let Ok(found) = found {
             prop_assert!(found.spec.problems().is_empty());
             let shapes = found.spec.shapes.len();
             prop_assert!(shapes <= MOST_SHAPES + bytes.len(), "{shapes} shapes of {} bytes", bytes.len());
