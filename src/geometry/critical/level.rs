@@ -39,7 +39,15 @@ pub(crate) enum Kind {
     Maximum(Opposite),
 }
 
-/// Classifies opposite points, each level passage once.
+/// Whether opposite points lie on a level passage.
+pub(crate) enum Passage {
+    /// They do not: a point by itself.
+    Point,
+    /// They do: its critical points, none if the passage is known, two if it is closed.
+    Level(Vec<Kind>),
+}
+
+/// Finds level passages, each once.
 #[derive(Default)]
 pub(crate) struct Classifier {
     /// Known sections by the indices of their two walls, with the images of those.
@@ -47,20 +55,21 @@ pub(crate) struct Classifier {
 }
 
 impl Classifier {
-    /// Classification of the midpoint of two opposite points: none, one, or two for a closed level passage.
-    pub(crate) fn classify(&mut self, walls: &Walls, at: &Opposite) -> Vec<Kind> {
-        let t = perpendicular(at.across());
-        let slopes = [slope(walls, at, t), slope(walls, at, -t)];
-        if slopes.iter().any(|slope| matches!(slope, Slope::Level(along) if self.is_known(walls, at, along))) {
-            return Vec::new();
-        }
+    /// The level passage through the midpoint of two opposite points.
+    pub(crate) fn classify(&mut self, walls: &Walls, at: &Opposite) -> Passage {
+        let slopes = slopes(walls, at);
         if slopes.iter().all(|slope| !matches!(slope, Slope::Level(_))) {
-            return decide(slopes.map(|slope| end(&slope)), at).into_iter().collect();
+            return Passage::Point;
         }
-        if !at.is_empty(walls) {
-            // Just beyond the end of a level passage, which is found from within it.
-            return Vec::new();
-        }
+        let is_known = slopes.iter().any(|slope| matches!(slope, Slope::Level(along) if self.is_known(walls, at, along)));
+        // Just beyond the end of a level passage, which is found from within it.
+        let is_beyond = || !at.is_empty(walls);
+        Passage::Level(if is_known || is_beyond() { Vec::new() } else { self.passage(walls, at) })
+    }
+
+    /// The critical points of a new level passage: none, one, or two if it is closed.
+    fn passage(&mut self, walls: &Walls, at: &Opposite) -> Vec<Kind> {
+        let t = perpendicular(at.across());
         let (ahead, first) = follow(walls, at, t);
         let (mut passage, ends) = if first == End::Closed {
             (ahead, [End::Closed; 2])
@@ -102,6 +111,16 @@ impl Classifier {
             minus(shifts[1], b.1) == by && (axis.project(x).point - x).norm() < NEAR * at.half
         })
     }
+}
+
+fn slopes(walls: &Walls, at: &Opposite) -> [Slope; 2] {
+    let t = perpendicular(at.across());
+    [slope(walls, at, t), slope(walls, at, -t)]
+}
+
+/// The kind of opposite points off level passages; `None` if they are not critical.
+pub(crate) fn decided(walls: &Walls, at: &Opposite) -> Option<Kind> {
+    decide(slopes(walls, at).map(|slope| end(&slope)), at)
 }
 
 fn base(along: &Along) -> (usize, Shift) {

@@ -5,6 +5,7 @@
 //! distance, `maxima` finds points between three walls.
 
 pub(crate) mod candidates;
+mod clusters;
 mod joints;
 pub(crate) mod level;
 pub(crate) mod maxima;
@@ -14,7 +15,7 @@ pub(crate) mod slope;
 pub(crate) mod walls;
 
 use crate::geometry::critical::candidates::{Pair, Samples, candidates, sorted};
-use crate::geometry::critical::level::{Classifier, Kind};
+use crate::geometry::critical::level::{Classifier, Kind, Passage};
 use crate::geometry::critical::maxima::{Maximum, center_of_arc, maximum};
 use crate::geometry::critical::opposite::{Opposite, TIE, opposite_points};
 use crate::geometry::critical::shift::minus;
@@ -40,33 +41,49 @@ impl CriticalPoints {
         let samples = Samples::new(walls, density);
         let (mut pairs, triples) = candidates(walls, &samples);
         pairs.extend(further);
-        let (saddles, mut maxima) = between_two(walls, &sorted(pairs));
-        maxima.extend(triples.iter().filter_map(|triple| maximum(walls, triple)));
+        let mut maxima: Vec<Maximum> = triples.iter().filter_map(|triple| maximum(walls, triple)).collect();
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
-        let maxima = one_of_each(maxima, |maximum| (walls.folded(maximum.center), maximum.radius));
+        let (saddles, maxima) = of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)));
         Self { saddles, maxima }
     }
 }
 
-/// Saddles and maxima between two walls.
-fn between_two(walls: &Walls, pairs: &[Pair]) -> (Vec<Opposite>, Vec<Maximum>) {
+/// The saddles and maxima between pairs of walls, and the maxima between three.
+fn of_pairs(walls: &Walls, pairs: &[Pair], maxima: Vec<Maximum>) -> (Vec<Opposite>, Vec<Maximum>) {
     let mut found = Vec::new();
     for (k, pair) in pairs.iter().enumerate() {
         let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
         found.extend(opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at)));
     }
-    let found = one_of_each(found, |at| (walls.folded(at.center), at.half));
+    let opposite_key = |at: &Opposite| (walls.folded(at.center), at.half);
+    let found = one_of_each(found, opposite_key);
     let mut classifier = Classifier::default();
-    let kinds: Vec<Kind> = found.iter().flat_map(|at| classifier.classify(walls, at)).collect();
-    let (mut saddles, mut maxima) = (Vec::new(), Vec::new());
-    for kind in kinds {
-        match kind {
-            Kind::Saddle(at) if !is_opening(walls, &at) => saddles.push(in_cell(walls, at)),
-            Kind::Saddle(_) => {}
-            Kind::Maximum(at) => maxima.push(maxima::at(walls, at.center, at.half)),
+    let mut isolated = Vec::new();
+    let (mut saddles, mut between) = (Vec::new(), Vec::new());
+    for at in &found {
+        match classifier.classify(walls, at) {
+            Passage::Point => isolated.push(*at),
+            Passage::Level(kinds) => {
+                for kind in kinds {
+                    match kind {
+                        Kind::Saddle(at) => saddles.push(at),
+                        Kind::Maximum(at) => between.push(maxima::at(walls, at.center, at.half)),
+                    }
+                }
+            }
         }
     }
-    (one_of_each(saddles, |at| (walls.folded(at.center), at.half)), maxima)
+    let (more, maxima) = clusters::resolve(walls, isolated, maxima);
+    saddles.extend(more);
+    saddles.retain(|at| !is_opening(walls, at));
+    between.extend(maxima);
+    let saddles = saddles.into_iter().map(|at| in_cell(walls, at)).collect();
+    (one_of_each(saddles, opposite_key), one_of_each(between, maximum_key(walls)))
+}
+
+/// The position and the wall distance of a maximum.
+fn maximum_key(walls: &Walls) -> impl Fn(&Maximum) -> (Vec2, f64) + '_ {
+    |maximum| (walls.folded(maximum.center), maximum.radius)
 }
 
 /// The same with its midpoint in the half-open cell.
@@ -151,7 +168,7 @@ mod tests {
                 let geometry = geometry.clone().with_periodic(periodic);
                 let walls = Walls::new(&geometry, sides);
                 let found = CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()], &[]).saddles;
-                let expected = between_two(&walls, &all_pairs(&walls)).0;
+                let expected = of_pairs(&walls, &all_pairs(&walls), Vec::new()).0;
                 assert_eq!(found.len(), expected.len(), "scene {scene} {periodic:?} {sides:?}");
                 for (a, b) in found.iter().zip(&expected) {
                     assert!((a.center - b.center).norm() < 1e-12 && (a.half - b.half).abs() < 1e-12);
