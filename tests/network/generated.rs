@@ -230,6 +230,9 @@ fn posts(is_hexagonal: bool, is_turned: bool, rng: &mut ChaCha8Rng) -> ([f64; 2]
             grains.push(Grain::Disc(center, radius));
         }
     }
+    if grains.is_empty() {
+        grains.push(Grain::Disc(size.map(|x| 0.5 * x), radius));
+    }
     (size, grains)
 }
 

@@ -57,7 +57,8 @@ fn first_met(gap: impl Fn(f64) -> f64, open: (f64, f64), met: (f64, f64)) -> f64
 }
 
 /// The dimensionless gap between two menisci, at most 0 where they have met: between their contacts over the length of the common wall, or between their arcs
-/// over the radius. Intersections behind both throats do not count.
+/// over the radius. Arcs meet ahead of both throats: a meniscus far behind its own throat may reach around the
+/// common wall to the other one, in the invading phase.
 fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
     // Two contacts pinned at the same edge have met, whatever the rounding of their arc lengths.
     const ROUNDING: f64 = 1e-12;
@@ -69,7 +70,7 @@ fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
         (Some(one), Some(other)) if a.1.curvature > 0.0 => (one - other).norm() * a.1.curvature - 2.0,
         _ => f64::INFINITY,
     };
-    let have_met = a.1.meetings(b.1).into_iter().flatten().any(|x| a.0.is_ahead(x) || b.0.is_ahead(x));
+    let have_met = a.1.meetings(b.1).into_iter().flatten().any(|x| a.0.is_ahead(x) && b.0.is_ahead(x));
     if have_met {
         if arcs.is_finite() { arcs.min(0.0) } else { -contacts }
     } else if arcs > 0.0 {

@@ -256,7 +256,9 @@ fn project(wall: &[WallPiece], x: Vec2) -> Option<WallPoint> {
 
 /// Number of points, of two, that are ends of their pieces.
 fn ends(one: &WallPoint, other: &WallPoint) -> usize {
-    [one, other].into_iter().filter(|it| it.u == 0.0 || it.u == 1.0).count()
+    // On an arc points as near to its end as this are as near to a facing wall, within rounding of distances.
+    const AT_END: f64 = 1e-4;
+    [one, other].into_iter().filter(|it| !(AT_END..=1.0 - AT_END).contains(&it.u)).count()
 }
 
 /// The closest points of two stretches of wall.
