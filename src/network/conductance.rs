@@ -7,7 +7,7 @@
 
 use crate::math::{Vec2, perpendicular};
 use crate::network::channel::{Channel, Wall};
-use crate::network::graph::{Edge, Network, WallPiece};
+use crate::network::graph::{Edge, Network, Region, WallPiece};
 
 /// Least distance of a pore center from a chord, in widths, so that conductances are finite.
 const SHORTEST: f64 = 1e-6;
@@ -79,5 +79,26 @@ fn resistance(network: &Network, region: usize, index: usize, [from, to]: [Vec2;
     let backwards = |piece: &WallPiece| WallPiece { curve: piece.curve.reversed(), ..*piece };
     let behind: Vec<WallPiece> = wall(&region.edges[(index + count - 1) % count]).iter().rev().map(backwards).collect();
     let walls = [Wall::new(&behind, -1.0, from, along), Wall::new(&ahead, 1.0, to, along)];
-    Channel { walls, along, depth: network.depth }.resistance(region.center)
+    Channel { walls, along, depth: network.depth }.resistance(image_near(region, 0.5 * (from + to)))
+}
+
+/// The image of the center of a region that is nearest to `x`. A region around a periodic domain has one in each period, wherever its boundary begins.
+fn image_near(region: &Region, x: Vec2) -> Vec2 {
+    let period = seam(&region.edges).unwrap_or_default();
+    let images = [0.0, 1.0, -1.0].map(|shift| region.center + period * shift);
+    images.into_iter().min_by(|a, b| (a - x).norm().total_cmp(&(b - x).norm())).unwrap_or(region.center)
+}
+
+/// The period between the end of the boundary of a region and its start, or between two of its edges.
+fn seam(edges: &[Edge]) -> Option<Vec2> {
+    const ROUNDING: f64 = 1e-6;
+    let ends = |edge: &Edge| match edge {
+        Edge::Wall(pieces) => Some([pieces.first()?.curve.point(0.0), pieces.last()?.curve.point(1.0)]),
+        Edge::Throat { from, to, .. } | Edge::Opening { from, to, .. } => Some([*from, *to]),
+    };
+    let ends: Vec<[Vec2; 2]> = edges.iter().filter_map(ends).collect();
+    let gaps = (0..ends.len()).map(|k| ends[(k + 1) % ends.len()][0] - ends[k][1]);
+    let longest = gaps.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+    let size = ends.iter().map(|[from, _]| (from - ends[0][0]).norm()).fold(0.0, f64::max);
+    (longest.norm() > ROUNDING * size).then_some(longest)
 }

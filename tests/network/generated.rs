@@ -176,7 +176,8 @@ pub fn drawing(number: u64) -> Scene {
             Grain::Ring(vec![[x - a, y - b], [x + a, y - b], [x + a, y + b], [x - a, y + b]])
         }),
         5 => pack(&mut rng, |place, r, rng| {
-            let (corners, turn) = (3 + (4.0 * rng.random::<f64>()) as usize, std::f64::consts::TAU * rng.random::<f64>());
+            let (corners, turn) =
+                (3 + (4.0 * rng.random::<f64>()) as usize, std::f64::consts::TAU * rng.random::<f64>());
             polygon(place, r, corners, turn, rng)
         }),
         6 => pack(&mut rng, |place, r, rng| {
@@ -244,7 +245,8 @@ fn pack(rng: &mut ChaCha8Rng, grain: impl Fn([f64; 2], f64, &mut ChaCha8Rng) -> 
     let mut places: Vec<[f64; 2]> = Vec::new();
     for _ in 0..400 {
         let place = [0, 1].map(|i: usize| size[i] * rng.random::<f64>());
-        let place = place.map(|x| if decimals < 16 { (x * 10.0_f64.powi(decimals)).round() / 10.0_f64.powi(decimals) } else { x });
+        let place = place
+            .map(|x| if decimals < 16 { (x * 10.0_f64.powi(decimals)).round() / 10.0_f64.powi(decimals) } else { x });
         let is_free = |other: &[f64; 2]| (other[0] - place[0]).hypot(other[1] - place[1]) > 2.15 * radius;
         let is_inside = (0..2).all(|i| place[i] > 1.1 * radius && place[i] < size[i] - 1.1 * radius);
         if places.iter().all(is_free) && is_inside {

@@ -208,9 +208,10 @@ impl Outcome {
         let mut left = other.regions.clone();
         for &(radius, area, edges) in &self.regions {
             let apart = |it: &(f64, f64, usize)| (radius - it.0).abs().max((area - it.1).abs() / scale);
-            let is_like =
-                |it: &(f64, f64, usize)| it.2 == edges && apart(it) < 1e-9 * scale;
-            let nearest = (0..left.len()).filter(|&k| is_like(&left[k])).min_by(|&a, &b| apart(&left[a]).total_cmp(&apart(&left[b])));
+            let is_like = |it: &(f64, f64, usize)| it.2 == edges && apart(it) < 1e-9 * scale;
+            let nearest = (0..left.len())
+                .filter(|&k| is_like(&left[k]))
+                .min_by(|&a, &b| apart(&left[a]).total_cmp(&apart(&left[b])));
             let Some(same) = nearest else { return Some(format!("region: {radius} {area} {edges} has no like")) };
             left.swap_remove(same);
         }
@@ -258,8 +259,8 @@ fn failures_of(scene: &Scene) -> Vec<(String, String)> {
 }
 
 /// Whether the order of events is asked for as well. Between polygons it may depend on rounding where menisci are pinned at two edges at once.
-fn has_only_discs(scene: &Scene) -> bool {
-    scene.grains.iter().all(|grain| matches!(grain, Grain::Disc(..)))
+fn has_no_corners(scene: &Scene) -> bool {
+    scene.grains.iter().all(|grain| !matches!(grain, Grain::Ring(..)))
 }
 
 /// A number from the environment.
@@ -267,13 +268,13 @@ fn asked(key: &str, default: u64) -> u64 {
     std::env::var(key).ok().and_then(|count| count.parse().ok()).unwrap_or(default)
 }
 
-#[test]
-fn a_network_and_its_displacement_do_not_depend_on_how_the_drawing_lies() {
+/// Asserts that the chosen number of generated inputs do not fail, and prints how many do; the order of events between polygons is only printed.
+fn assert_symmetric(generated: fn(u64) -> Scene) {
     let (first, count) = (asked("MENISCUS_PACKS_FIRST", 0), asked("MENISCUS_PACKS", 40));
     let found: Vec<(u64, String, String)> = (first..first + count)
         .into_par_iter()
         .flat_map_iter(|number| {
-            let first = failures_of(&scene(number)).into_iter().next();
+            let first = failures_of(&generated(number)).into_iter().next();
             first.map(|(kind, what)| (number, kind, what))
         })
         .collect();
@@ -282,28 +283,20 @@ fn a_network_and_its_displacement_do_not_depend_on_how_the_drawing_lies() {
         *kinds.entry(kind).or_default() += 1;
     }
     println!("{count} inputs, {} failed: {kinds:?}", found.len());
-    let counts = |(number, kind, _): &&(u64, String, String)| kind != "events" || has_only_discs(&scene(*number));
+    found.iter().for_each(|(number, kind, what)| println!("{number} {kind} {what}"));
+    let counts = |(number, kind, _): &&(u64, String, String)| kind != "events" || has_no_corners(&generated(*number));
     let failed: Vec<_> = found.iter().filter(counts).collect();
     assert!(failed.is_empty(), "{} of {}: {failed:#?}", failed.len(), found.len());
 }
 
 #[test]
-fn a_drawing_as_people_have_them_has_one_network_and_one_displacement() {
-    let (first, count) = (asked("MENISCUS_PACKS_FIRST", 0), asked("MENISCUS_PACKS", 40));
-    let found: Vec<(u64, String, String)> = (first..first + count)
-        .into_par_iter()
-        .flat_map_iter(|number| {
-            let first = failures_of(&drawing(number)).into_iter().next();
-            first.map(|(kind, what)| (number, kind, what))
-        })
-        .collect();
-    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
-    for (_, kind, _) in &found {
-        *kinds.entry(kind).or_default() += 1;
-    }
-    println!("{count} inputs, {} failed: {kinds:?}", found.len());
-    for f in &found { println!("{} {} {}", f.0, f.1, f.2); }
-    assert!(found.is_empty());
+fn a_network_and_its_displacement_do_not_depend_on_how_the_drawing_lies() {
+    assert_symmetric(scene);
+}
+
+#[test]
+fn lattices_with_errors_of_any_size_and_packs_of_equal_grains_have_one_network_and_one_displacement() {
+    assert_symmetric(drawing);
 }
 
 #[test]
@@ -344,100 +337,22 @@ fn posts_on_a_square_and_discs_in_tall_boxes_have_a_network() {
 }
 
 #[test]
-fn debug_one() {
-    let number = asked("N", 0);
-    let scene = drawing(number);
-    println!("{:?} {:?} flow {} angle {} trapping {} grains {}", scene.size, scene.sides, scene.flow, scene.angle_deg, scene.trapping, scene.grains.len());
-    for g in scene.grains.iter().take(asked("G", 6) as usize) { println!("{g:?}"); }
-    let still = scene.outcome(&STILL).unwrap();
-    let mut seen = 0;
-    for motion in &MOTIONS {
-        match scene.outcome(motion) {
-            Err(e) => println!("{}: {e}", motion.name),
-            Ok(moved) => if let Some(d) = still.difference(&moved, &scene) {
-                println!("{}: {d}", motion.name);
-                seen += 1;
-                if seen > 2 { continue; }
-                let mut rs = moved.regions.clone();
-                for r in &still.regions {
-                    if let Some(k) = rs.iter().position(|q| (q.0-r.0).abs()<1e-8*scene.size[0] && (q.1-r.1).abs()<1e-8*scene.size[0].powi(2) && q.2==r.2) { rs.swap_remove(k); } else { println!("  only still {r:?}"); }
-                }
-                for r in rs { println!("  only moved {r:?}"); }
-                let n = asked("S", 12) as usize;
-                let k = still.steps.iter().zip(&moved.steps).position(|(a,b)| (a.1-b.1).abs()>1e-9*scene.size[0].powi(2)).unwrap_or(0).saturating_sub(2);
-                println!("  step {k}");
-                for (a,b) in still.steps.iter().zip(&moved.steps).skip(k).take(n) { println!("  {:?} {:?}", a, b); }
-            },
-        }
-    }
-}
-
-#[test]
-fn debug_reduce() {
-    let number = asked("N", 0);
-    let mut scene = drawing(number);
-    let kind = std::env::var("KIND").unwrap_or_default();
-    let fails = |scene: &Scene| failures_of(scene).iter().any(|(k, what)| k != "refused" && what.contains(&kind));
-    assert!(fails(&scene));
-    loop {
-        let mut changed = false;
-        let mut k = 0;
-        while k < scene.grains.len() {
-            if scene.grains.len() == 1 { break; }
-            let mut less = scene.clone();
-            less.grains.remove(k);
-            if fails(&less) { scene = less; changed = true; } else { k += 1; }
-        }
-        if !changed { break; }
-    }
-    println!("{scene:?}");
-    for (k, what) in failures_of(&scene) { println!("{k} {what}"); }
-    let network = extract(&scene.geometry(&STILL), [0,1,2,3].map(|s: usize| scene.sides[s/2]==Pairs::Open)).unwrap();
-    for t in &network.throats { println!("throat {:?} {} {:?}", t.contacts.map(|c| [c.x,c.y]), t.width, t.regions); }
-    for motion in [STILL].iter().chain(&MOTIONS).take(asked("M", 3) as usize) {
-        println!("{}:", motion.name);
-        if let Ok(o) = scene.trace(motion) { println!("{o}"); }
-    }
-}
-
-impl Scene {
-    fn trace(&self, motion: &Motion) -> Result<String, String> {
-        use std::fmt::Write;
-        let scene = self;
-        let geometry = self.geometry(motion);
-        let mut open = [false; 4];
-        for side in (0..4).filter(|&side| self.sides[side / 2] == Pairs::Open) {
-            open[motion.side(side)] = true;
-        }
-        let network = extract(&geometry, open).map_err(|error| error.to_string())?;
-        let conditions = {
-            let on = |end: usize| {
-                let mut sides = [false; 4];
-                sides[motion.side(2 * scene.flow + end)] = scene.sides[scene.flow] == Pairs::Open;
-                sides
-            };
-            Conditions {
-                angle: vec![scene.angle_deg.to_radians(); scene.grains.len() + 4],
-                inlet: on(0), outlet: on(1),
-                trapping: scene.trapping.into(), events: Events::All, largest_curvature: f64::INFINITY,
-                measured: Vec::new(), films: CornerFilms::Absent,
-            }
-        };
-        let pores = Pores::merged(&network, 0.95);
-        let mut state = Displacement::new(&network, &pores, conditions);
-        let mut out = String::new();
-        let area = motion.scale * motion.scale;
-        let show = |e: usize, state: &Displacement| {
-            let el = &state.elements()[e];
-            let c = el.outline.iter().map(|&x| motion.back(scene.size, x)).sum::<Vec2>() / el.outline.len() as f64;
-            let o: Vec<[f64;2]> = el.outline.iter().map(|&x| motion.back(scene.size, x)).map(|x| [(x.x*1e4).round()/1e4,(x.y*1e4).round()/1e4]).collect();
-            format!("({:.4},{:.4}) a {:.6} {}", c.x, c.y, el.area / area, if o.len() < 9 { format!("{o:?}") } else { String::new() })
-        };
-        for e in 0..state.elements().len() { writeln!(out, "  {} {}", if state.phase(e) == Phase::Invading { "inv" } else { "   " }, show(e, &state)).unwrap(); }
-        while let Some(event) = state.next() {
-            let filled: Vec<String> = event.elements.iter().map(|&e| show(e, &state)).collect();
-            writeln!(out, "  {:?} k {:.9} applied {:.9} throat {:?} fills {:?}", event.kind, event.curvature*motion.scale, event.applied*motion.scale, event.throat.map(|t| network.throats[t].width/motion.scale), filled).unwrap();
-        }
-        Ok(out)
+fn a_square_lattice_has_a_network_however_large_its_errors_are() {
+    let (pitch, radius) = (1e-4, 3e-5);
+    for power in 2..=14 {
+        let error = pitch * 10.0_f64.powi(-power);
+        // Errors of no symmetry.
+        let noise = |k: usize| error * (2.0 * (0.618_033_988_749_895 * (k * k + 3 * k + 1) as f64).fract() - 1.0);
+        let posts: Vec<[f64; 3]> = (0..9)
+            .map(|k| {
+                let site = |i: usize| (i as f64 + 0.5) * pitch;
+                [site(k % 3) + noise(3 * k), site(k / 3) + noise(3 * k + 1), radius + noise(3 * k + 2)]
+            })
+            .collect();
+        let drained = has_network([3.0 * pitch; 2], &posts, [Pairs::Open, Pairs::Walls]);
+        // At 0 degrees a meniscus between two posts is a half circle as wide as their gap.
+        let exact = 2.0 / (pitch - 2.0 * radius);
+        let entry = drained.steps[1].0;
+        assert!((entry - exact).abs() <= 5.0 * error / pitch * exact + 1e-9 * exact, "{error}: {entry} {exact}");
     }
 }

@@ -27,11 +27,7 @@ const AS_LARGE: f64 = 1e-9;
 const SURROUNDS: f64 = 0.1;
 
 /// The saddles and maxima of `opposites` off level passages, and of maxima between three walls.
-pub(super) fn resolve(
-    walls: &Walls,
-    opposites: Vec<Opposite>,
-    maxima: Vec<Maximum>,
-) -> (Vec<Opposite>, Vec<Maximum>) {
+pub(super) fn resolve(walls: &Walls, opposites: Vec<Opposite>, maxima: Vec<Maximum>) -> (Vec<Opposite>, Vec<Maximum>) {
     let mut found = (Vec::new(), Vec::new());
     let members: Vec<Member> =
         opposites.into_iter().map(Member::Opposite).chain(maxima.into_iter().map(Member::Maximum)).collect();
@@ -124,8 +120,7 @@ impl Cluster {
         let extent = self.centers.iter().map(|x| (x - center).norm()).fold(0.0, f64::max);
         let radius = extent + 0.5 * COINCIDENT * distance;
         let is_within = (0..2).all(|i| {
-            walls.periodic[i]
-                || center[i] - radius > walls.domain.min[i] && center[i] + radius < walls.domain.max[i]
+            walls.periodic[i] || center[i] - radius > walls.domain.min[i] && center[i] + radius < walls.domain.max[i]
         });
         is_within.then(|| 1 - rises(walls, center, radius) as i32)
     }

@@ -61,7 +61,8 @@ impl Classifier {
         if slopes.iter().all(|slope| !matches!(slope, Slope::Level(_))) {
             return Passage::Point;
         }
-        let is_known = slopes.iter().any(|slope| matches!(slope, Slope::Level(along) if self.is_known(walls, at, along)));
+        let is_known =
+            slopes.iter().any(|slope| matches!(slope, Slope::Level(along) if self.is_known(walls, at, along)));
         // Just beyond the end of a level passage, which is found from within it.
         let is_beyond = || !at.is_empty(walls);
         Passage::Level(if is_known || is_beyond() { Vec::new() } else { self.passage(walls, at) })

@@ -87,12 +87,8 @@ pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
 
 /// The largest angle in rad between neighboring nearest wall points of a maximum.
 pub(crate) fn largest_gap(maximum: &Maximum) -> f64 {
-    let mut angles: Vec<f64> = maximum
-        .contacts
-        .iter()
-        .map(|contact| contact.point - maximum.center)
-        .map(|v| v.y.atan2(v.x))
-        .collect();
+    let mut angles: Vec<f64> =
+        maximum.contacts.iter().map(|contact| contact.point - maximum.center).map(|v| v.y.atan2(v.x)).collect();
     angles.sort_by(f64::total_cmp);
     let around = angles.first().map(|first| first + std::f64::consts::TAU);
     let ends = angles.iter().skip(1).copied().chain(around);

@@ -2,7 +2,7 @@
 //!
 //! A point of the pore space is critical if it lies in the convex hull of its nearest wall points [Lieutier2004]. `walls` holds the walls as chains,
 //! `candidates` finds facing ones, `opposite` the points between two walls, `slope` distinguishes saddles from maxima, `level` joins sections of constant
-//! distance, `maxima` finds points between three walls.
+//! distance, `maxima` finds points between three walls, `clusters` counts those that coincide.
 
 pub(crate) mod candidates;
 mod clusters;
