@@ -198,7 +198,7 @@ impl Geometry {
 
     fn rebuilt(mut self) -> Self {
         let tolerance = self.tolerance();
-        self.bodies = self.shapes.iter().flat_map(|body| self.images(body)).collect();
+        self.bodies = self.distinct().into_iter().flat_map(|body| self.images(body)).collect();
         self.tree = Tree::over(self.bodies.iter().map(|body| body.bounds));
         self.walls = self.side_walls();
         let (bodies, walls): (Vec<&Body>, Vec<&Body>) = (self.bodies.iter().collect(), self.walls.iter().collect());
@@ -208,6 +208,42 @@ impl Geometry {
         };
         self.boundary = Boundary::new(pieces, ROUNDING * tolerance);
         self
+    }
+
+    /// The shapes without copies of others by whole periods: drawings often have a grain that crosses a periodic side at both sides.
+    fn distinct(&self) -> Vec<&Body> {
+        if self.periodic == [false; 2] {
+            return self.shapes.iter().collect();
+        }
+        let (size, tolerance) = (self.domain.size(), self.tolerance());
+        let crosses = |body: &Body| {
+            let sides = |i: usize| body.bounds.min[i] < self.domain.min[i] || body.bounds.max[i] > self.domain.max[i];
+            !body.is_endless() && (0..2).any(|i| self.periodic[i] && sides(i))
+        };
+        let is_copy = |one: &Body, other: &Body| {
+            let mut shift = other.bounds.min - one.bounds.min;
+            for i in 0..2 {
+                shift[i] = if self.periodic[i] { size[i] * (shift[i] / size[i]).round() } else { 0.0 };
+            }
+            let is_near = |a: Vec2, b: Vec2| (a + shift - b).norm() <= tolerance;
+            let curves = || one.curves.iter().zip(other.curves.iter());
+            is_near(one.bounds.min, other.bounds.min)
+                && is_near(one.bounds.max, other.bounds.max)
+                && one.curves.iter().count() == other.curves.iter().count()
+                && curves().all(|(a, b)| [0.0, 0.5, 1.0].iter().all(|&u| is_near(a.point(u), b.point(u))))
+        };
+        let mut crossing: Vec<&Body> = Vec::new();
+        let mut found = Vec::new();
+        for body in &self.shapes {
+            if crosses(body) {
+                if crossing.iter().any(|one| is_copy(one, body)) {
+                    continue;
+                }
+                crossing.push(body);
+            }
+            found.push(body);
+        }
+        found
     }
 
     /// The body and its periodic images that can be nearest to a point of the domain: those that reach into the domain grown by its own size (the nearest

@@ -190,7 +190,7 @@ fn add_pairs(walls: &Walls, a: &Sample, b: &Sample, pairs: &mut Vec<Pair>) {
 }
 
 /// The pair of two images of pieces with a point between them; `None` where they are one.
-fn pair(walls: &Walls, p: (usize, Shift), q: (usize, Shift), between: Vec2) -> Option<Pair> {
+pub(super) fn pair(walls: &Walls, p: (usize, Shift), q: (usize, Shift), between: Vec2) -> Option<Pair> {
     let (first, second) = if (p.0, q.1) <= (q.0, p.1) && p.0 <= q.0 { (p, q) } else { (q, p) };
     let of_first = || Pair {
         walls: [first.0, second.0],

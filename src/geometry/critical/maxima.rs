@@ -30,6 +30,19 @@ const EXCHANGES: usize = 12;
 
 /// The maximum of the wall distance near a candidate \[Lieutier2004\].
 pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
+    between_three(walls, triple).filter(|at| is_maximum(walls, at))
+}
+
+/// Two parallel walls on opposite sides of a point between three walls: it is an end of a level passage between them, and no maximum by itself.
+pub(crate) fn parallel_walls(at: &Maximum) -> Option<[Contact; 2]> {
+    let direction = |contact: &Contact| (contact.point - at.center) / at.radius;
+    let sum = |a: &Contact, b: &Contact| (direction(a) + direction(b)).norm();
+    let pairs = at.contacts.iter().enumerate().flat_map(|(k, a)| at.contacts[..k].iter().map(move |b| [*b, *a]));
+    pairs.min_by(|[a, b], [c, d]| sum(a, b).total_cmp(&sum(c, d))).filter(|[a, b]| sum(a, b) < HALF_CIRCLE)
+}
+
+/// The point of equal distance from three walls near a candidate, if no other wall is nearer.
+pub(crate) fn between_three(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     let mut of = triple.walls;
     let mut x = triple.start;
     for _ in 0..EXCHANGES {
@@ -41,7 +54,8 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
         }
         let (distance, nearest) = walls.nearest(x)?;
         if distance >= radius - slack(walls, radius) {
-            return found(walls, x, radius, &nearest);
+            let is_in_pore = walls.is_visible(&nearest, x - nearest.point);
+            return is_in_pore.then(|| at(walls, x, radius));
         }
         // The nearer wall replaces the one beside it.
         let v = nearest.point - x;
@@ -55,18 +69,14 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     None
 }
 
-/// The maximum at a point whose wall distance is `radius` (m), if it is one.
-fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maximum> {
-    if !walls.is_visible(nearest, x - nearest.point) {
-        return None;
-    }
-    let maximum = at(walls, x, radius);
+/// Whether the wall points of a point leave no half circle free.
+pub(crate) fn is_maximum(walls: &Walls, at: &Maximum) -> bool {
     let is_straight = |contact: &Contact| {
         contact.u > 0.0 && contact.u < 1.0 && matches!(walls.curve(contact.wall, contact.shift), Curve::Segment { .. })
     };
     let directions: Vec<(Vec2, bool)> =
-        maximum.contacts.iter().map(|contact| (contact.point - maximum.center, is_straight(contact))).collect();
-    surrounded(&directions).then_some(maximum)
+        at.contacts.iter().map(|contact| (contact.point - at.center, is_straight(contact))).collect();
+    surrounded(&directions)
 }
 
 /// A maximum with all its wall points.

@@ -14,9 +14,9 @@ pub(crate) mod shift;
 pub(crate) mod slope;
 pub(crate) mod walls;
 
-use crate::geometry::critical::candidates::{Pair, Samples, candidates, sorted};
+use crate::geometry::critical::candidates::{Pair, Samples, candidates, pair, sorted};
 use crate::geometry::critical::level::{Classifier, Kind, Passage};
-use crate::geometry::critical::maxima::{Maximum, center_of_arc, maximum};
+use crate::geometry::critical::maxima::{Maximum, between_three, center_of_arc, is_maximum, parallel_walls};
 use crate::geometry::critical::opposite::{Opposite, TIE, opposite_points};
 use crate::geometry::critical::shift::minus;
 use crate::geometry::critical::slope::is_opening;
@@ -41,7 +41,13 @@ impl CriticalPoints {
         let samples = Samples::new(walls, density);
         let (mut pairs, triples) = candidates(walls, &samples);
         pairs.extend(further);
-        let mut maxima: Vec<Maximum> = triples.iter().filter_map(|triple| maximum(walls, triple)).collect();
+        let between = triples.iter().filter_map(|triple| between_three(walls, triple));
+        let (mut maxima, others): (Vec<Maximum>, Vec<Maximum>) = between.partition(|at| is_maximum(walls, at));
+        // A short level passage is found from its ends.
+        pairs.extend(others.iter().filter_map(|at| {
+            let [a, b] = parallel_walls(at)?.map(|contact| (contact.wall, contact.shift));
+            pair(walls, a, b, at.center)
+        }));
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
         let (saddles, maxima) = of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)));
         Self { saddles, maxima }

@@ -119,10 +119,13 @@ impl Passage {
         last.grown_to(line.point(0.0), line.normal(0.5)).or(Some(last))
     }
 
-    /// Whether a point lies ahead of the line through the chord of the throat.
+    /// Whether a point lies ahead of the line through the chord of the throat, by more than rounding: two menisci pinned at the same edge, in throats on both
+    /// sides of it, have a common point there.
     pub(crate) fn is_ahead(&self, x: Vec2) -> bool {
-        let end = chord_end(&self.right, Hand::Right).unwrap_or_default();
-        cross(end - self.origin, x - self.origin) >= 0.0
+        // Fraction of the chord; of the intersection of arcs that are nearly tangent only half of the digits are accurate.
+        const ROUNDING: f64 = 1e-6;
+        let chord = chord_end(&self.right, Hand::Right).unwrap_or_default() - self.origin;
+        cross(chord, x - self.origin) > ROUNDING * chord.norm_squared()
     }
 
     /// Area in m² swept by the meniscus from the chord of the throat: between chord, walls and arc.

@@ -83,7 +83,7 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
         let scan = (0..=n).map(|i| low + (up_to - low) * f64::from(i) / f64::from(n)).find(|&k| {
             let (x, y) = (a.at(k).unwrap(), b.at(k).unwrap());
             let passed = x.left.advance + y.right.advance >= shared * (1.0 - 1e-9);
-            passed || polylines_cross(&x.points(50), &y.points(50), |p| a.is_ahead(p) || b.is_ahead(p))
+            passed || polylines_cross(&x.points(50), &y.points(50), |p| a.is_ahead(p) && b.is_ahead(p))
         });
         let step = (up_to - low) / f64::from(n);
         match (found, scan) {
