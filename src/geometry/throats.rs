@@ -8,6 +8,7 @@
 //! Walls beyond the sides of the domain count too. The cost is that of sorting the walls.
 
 use crate::geometry::critical::CriticalPoints;
+use crate::geometry::critical::clusters::Coincident;
 use crate::geometry::critical::walls::{Sides, Walls};
 use crate::geometry::solid::Geometry;
 use crate::math::Vec2;
@@ -34,7 +35,7 @@ impl Geometry {
 pub fn throats(geometry: &Geometry) -> Vec<Throat> {
     let walls = Walls::new(geometry, Sides::Beyond);
     let even = vec![1.0; walls.walls.len()];
-    let mut all: Vec<Throat> = CriticalPoints::find(&walls, &even, &[])
+    let mut all: Vec<Throat> = CriticalPoints::find(&walls, &even, &[], Coincident::Clusters)
         .saddles
         .iter()
         .map(|at| Throat { width: 2.0 * at.half, ends: at.contacts.map(|c| c.point), center: at.center })

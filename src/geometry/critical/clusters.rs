@@ -16,6 +16,15 @@ use crate::geometry::critical::walls::Walls;
 use crate::geometry::curve::{cross, unit};
 use crate::math::{Vec2, root};
 
+/// Treatment of critical points that coincide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Coincident {
+    /// They count by the index of their cluster.
+    Clusters,
+    /// Each counts by its own slopes: for walls of facets shorter than the radius of a cluster.
+    Points,
+}
+
 /// Critical points nearer than this fraction of their wall distance are one. Its square exceeds the rounding of distances: where three walls are equally near
 /// within that, the saddle and the maximum between them are nearer than this.
 pub(crate) const COINCIDENT: f64 = 1e-4;
@@ -27,12 +36,18 @@ const AS_LARGE: f64 = 1e-9;
 const SURROUNDS: f64 = 0.1;
 
 /// The saddles and maxima of `opposites` off level passages, and of maxima between three walls.
-pub(super) fn resolve(walls: &Walls, opposites: Vec<Opposite>, maxima: Vec<Maximum>) -> (Vec<Opposite>, Vec<Maximum>) {
+pub(super) fn resolve(
+    walls: &Walls,
+    opposites: Vec<Opposite>,
+    maxima: Vec<Maximum>,
+    coincident: Coincident,
+) -> (Vec<Opposite>, Vec<Maximum>) {
     let mut found = (Vec::new(), Vec::new());
     let members: Vec<Member> =
         opposites.into_iter().map(Member::Opposite).chain(maxima.into_iter().map(Member::Maximum)).collect();
     for cluster in clusters(walls, members) {
-        match cluster.index(walls) {
+        let index = if coincident == Coincident::Clusters { cluster.index(walls) } else { None };
+        match index {
             Some(1..) => found.1.extend(cluster.maximum(walls)),
             Some(0) => {}
             Some(_) => found.0.extend(cluster.saddle()),

@@ -5,7 +5,7 @@
 //! distance, `maxima` finds points between three walls, `clusters` counts those that coincide.
 
 pub(crate) mod candidates;
-mod clusters;
+pub(crate) mod clusters;
 mod joints;
 pub(crate) mod level;
 pub(crate) mod maxima;
@@ -15,6 +15,7 @@ pub(crate) mod slope;
 pub(crate) mod walls;
 
 use crate::geometry::critical::candidates::{Pair, Samples, candidates, pair, sorted};
+use crate::geometry::critical::clusters::Coincident;
 use crate::geometry::critical::level::{Classifier, Kind, Passage};
 use crate::geometry::critical::maxima::{Maximum, between_three, center_of_arc, is_maximum, parallel_walls};
 use crate::geometry::critical::opposite::{Opposite, TIE, opposite_points};
@@ -37,7 +38,7 @@ pub(crate) struct CriticalPoints {
 impl CriticalPoints {
     /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece, `further` are pairs to look at besides
     /// those that the samples offer.
-    pub(crate) fn find(walls: &Walls, density: &[f64], further: &[Pair]) -> Self {
+    pub(crate) fn find(walls: &Walls, density: &[f64], further: &[Pair], coincident: Coincident) -> Self {
         let samples = Samples::new(walls, density);
         let (mut pairs, triples) = candidates(walls, &samples);
         pairs.extend(further);
@@ -49,13 +50,18 @@ impl CriticalPoints {
             pair(walls, a, b, at.center)
         }));
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
-        let (saddles, maxima) = of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)));
+        let (saddles, maxima) = of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)), coincident);
         Self { saddles, maxima }
     }
 }
 
 /// The saddles and maxima between pairs of walls, and the maxima between three.
-fn of_pairs(walls: &Walls, pairs: &[Pair], maxima: Vec<Maximum>) -> (Vec<Opposite>, Vec<Maximum>) {
+fn of_pairs(
+    walls: &Walls,
+    pairs: &[Pair],
+    maxima: Vec<Maximum>,
+    coincident: Coincident,
+) -> (Vec<Opposite>, Vec<Maximum>) {
     let mut found = Vec::new();
     for (k, pair) in pairs.iter().enumerate() {
         let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
@@ -79,7 +85,7 @@ fn of_pairs(walls: &Walls, pairs: &[Pair], maxima: Vec<Maximum>) -> (Vec<Opposit
             }
         }
     }
-    let (more, maxima) = clusters::resolve(walls, isolated, maxima);
+    let (more, maxima) = clusters::resolve(walls, isolated, maxima, coincident);
     saddles.extend(more);
     saddles.retain(|at| !is_opening(walls, at));
     between.extend(maxima);
@@ -173,8 +179,9 @@ mod tests {
             for (periodic, sides) in [([false; 2], Sides::Cut), ([false; 2], Sides::Beyond), ([true; 2], Sides::Cut)] {
                 let geometry = geometry.clone().with_periodic(periodic);
                 let walls = Walls::new(&geometry, sides);
-                let found = CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()], &[]).saddles;
-                let expected = of_pairs(&walls, &all_pairs(&walls), Vec::new()).0;
+                let found =
+                    CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()], &[], Coincident::Clusters).saddles;
+                let expected = of_pairs(&walls, &all_pairs(&walls), Vec::new(), Coincident::Clusters).0;
                 assert_eq!(found.len(), expected.len(), "scene {scene} {periodic:?} {sides:?}");
                 for (a, b) in found.iter().zip(&expected) {
                     assert!((a.center - b.center).norm() < 1e-12 && (a.half - b.half).abs() < 1e-12);

@@ -23,6 +23,7 @@ use crate::case::SIDES;
 use crate::geometry::Geometry;
 use crate::geometry::critical::CriticalPoints;
 use crate::geometry::critical::candidates::all_pairs;
+use crate::geometry::critical::clusters::Coincident;
 use crate::geometry::critical::walls::{Sides, Walls};
 use crate::network::extract::loops::Loops;
 use crate::network::extract::regions::{Attempt, attempt};
@@ -65,9 +66,13 @@ fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Netwo
     let mut further = Vec::new();
     let mut round = 0;
     loop {
-        let points = CriticalPoints::find(walls, &density, &further);
-        let loops = Loops::trace(walls, &points.saddles, perimeter);
-        match attempt(walls, &points, &loops) {
+        let tried = |coincident: Coincident| {
+            let points = CriticalPoints::find(walls, &density, &further, coincident);
+            attempt(walls, &points, &Loops::trace(walls, &points.saddles, perimeter))
+        };
+        let first = tried(Coincident::Clusters);
+        let is_certified = matches!(first, Attempt::Certified(_));
+        match if is_certified { first } else { tried(Coincident::Points).or(first) } {
             Attempt::Certified(network) => return Ok(network),
             Attempt::Failed { near, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { near }),
             Attempt::Failed { images, .. } => {

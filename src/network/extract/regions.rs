@@ -26,6 +26,13 @@ pub(super) enum Attempt {
     },
 }
 
+impl Attempt {
+    /// This attempt if it has a certificate, else the other one.
+    pub(super) fn or(self, other: Self) -> Self {
+        if matches!(self, Self::Certified(_)) { self } else { other }
+    }
+}
+
 /// Relative tolerance of equal radii and widths.
 const SAME: f64 = 1e-7;
 
