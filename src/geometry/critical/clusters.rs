@@ -6,11 +6,10 @@
 //! conditioned: 1 minus the number of arcs on which the distance increases outwards. The cluster is one maximum (index 1), one saddle (−1), or no critical
 //! point (0): three walls in less than half a circle. So the numbers of maxima and saddles always agree, whatever the rounding.
 
-use crate::geometry::critical::Opposite;
 use crate::geometry::critical::candidates::Triple;
 use crate::geometry::critical::level::{Kind, decided};
 use crate::geometry::critical::maxima::{self, Maximum, largest_gap, maximum};
-use crate::geometry::critical::opposite::slack;
+use crate::geometry::critical::opposite::{Opposite, slack};
 use crate::geometry::critical::shift::Shift;
 use crate::geometry::critical::walls::Walls;
 use crate::geometry::curve::{cross, unit};

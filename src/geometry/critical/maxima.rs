@@ -33,12 +33,15 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     between_three(walls, triple).filter(|at| is_maximum(walls, at))
 }
 
-/// Two parallel walls on opposite sides of a point between three walls: it is an end of a level passage between them, and no maximum by itself.
-pub(crate) fn parallel_walls(at: &Maximum) -> Option<[Contact; 2]> {
+/// Two parallel segments on opposite sides of a point between three walls: it is an end of a level passage between them, and no maximum by itself.
+pub(crate) fn parallel_walls(walls: &Walls, at: &Maximum) -> Option<[Contact; 2]> {
+    let is_straight = |contact: &Contact| matches!(walls.curve(contact.wall, contact.shift), Curve::Segment { .. });
     let direction = |contact: &Contact| (contact.point - at.center) / at.radius;
     let sum = |a: &Contact, b: &Contact| (direction(a) + direction(b)).norm();
     let pairs = at.contacts.iter().enumerate().flat_map(|(k, a)| at.contacts[..k].iter().map(move |b| [*b, *a]));
-    pairs.min_by(|[a, b], [c, d]| sum(a, b).total_cmp(&sum(c, d))).filter(|[a, b]| sum(a, b) < HALF_CIRCLE)
+    pairs
+        .min_by(|[a, b], [c, d]| sum(a, b).total_cmp(&sum(c, d)))
+        .filter(|[a, b]| sum(a, b) < HALF_CIRCLE && is_straight(a) && is_straight(b))
 }
 
 /// The point of equal distance from three walls near a candidate, if no other wall is nearer.

@@ -46,7 +46,7 @@ impl CriticalPoints {
         let (mut maxima, others): (Vec<Maximum>, Vec<Maximum>) = between.partition(|at| is_maximum(walls, at));
         // A short level passage is found from its ends.
         pairs.extend(others.iter().filter_map(|at| {
-            let [a, b] = parallel_walls(at)?.map(|contact| (contact.wall, contact.shift));
+            let [a, b] = parallel_walls(walls, at)?.map(|contact| (contact.wall, contact.shift));
             pair(walls, a, b, at.center)
         }));
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));

@@ -80,12 +80,15 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
         let shared = length_between(&cell.surface(1), from, to);
         let found = overlap(&a, &b, shared, up_to);
         let n = 150;
-        let scan = (0..=n).map(|i| low + (up_to - low) * f64::from(i) / f64::from(n)).find(|&k| {
+        let at = |i: usize| low + (up_to - low) * i as f64 / n as f64;
+        let have_met = |k: f64| {
             let (x, y) = (a.at(k).unwrap(), b.at(k).unwrap());
             let passed = x.left.advance + y.right.advance >= shared * (1.0 - 1e-9);
             passed || polylines_cross(&x.points(50), &y.points(50), |p| a.is_ahead(p) && b.is_ahead(p))
-        });
-        let step = (up_to - low) / f64::from(n);
+        };
+        // Where they have met and remain so: of a meniscus far behind its throat a crossing ahead of both may vanish again.
+        let scan = (0..=n).rev().take_while(|&i| have_met(at(i))).last().map(at);
+        let step = (up_to - low) / n as f64;
         match (found, scan) {
             (Some(k), Some(scanned)) => {
                 counts[0] += 1;
