@@ -117,7 +117,7 @@ fn clusters(walls: &Walls, members: Vec<Member>) -> Vec<Cluster> {
 impl Cluster {
     /// The number of maxima minus that of saddles; `None` for a saddle or a maximum between two walls by itself, or if its surroundings are not in the domain.
     fn index(&self, walls: &Walls) -> Option<i32> {
-        let gaps = || self.maxima.iter().map(|at| largest_gap(at));
+        let gaps = || self.maxima.iter().map(largest_gap);
         if gaps().any(|gap| gap < std::f64::consts::PI - SURROUNDS) {
             return Some(1);
         }

@@ -36,7 +36,7 @@ pub(super) fn farthest(walls: &Walls, a: Vec2, b: Vec2) -> (Vec2, f64) {
     };
     let precision = 1e-12 * best.max(walls.tolerance) / length;
     let peaks = (0..samples.len()).filter(is_peak);
-    let tops = peaks.map(|k| top(&value, samples[k], [at(k.saturating_sub(1)).0, at(k + 1).0], precision));
+    let tops = peaks.map(|k| top(value, samples[k], [at(k.saturating_sub(1)).0, at(k + 1).0], precision));
     let (u, d) = tops.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.5, best));
     (a + (b - a) * u, d)
 }
