@@ -8,5 +8,6 @@ mod formats;
 mod invariance;
 mod kinds;
 mod kinds_of_networks;
+mod mask_images;
 mod network;
 mod survival;

@@ -33,11 +33,33 @@ fn biarc((p, t): (Vec2, Vec2), (q, s): (Vec2, Vec2)) -> Option<(Vec2, f64, f64)>
     is_small.then(|| (joint, (0.5 * from).tan(), (0.5 * to).tan()))
 }
 
-/// Few arcs through the points, as near to all of them as the `noise` (rms, in pixels) requires. Closed: the last arc ends at the first vertex. Open: the
-/// last vertex ends the line and has no arc.
-pub(super) fn arcs((points, tangents): (&[Vec2], &[Vec2]), is_closed: bool, noise: f64) -> Vec<Vertex> {
+/// The largest number of intervals below `end` that fit, at least one: doubled while they fit, then by bisection.
+fn longest(end: usize, fits: impl Fn(usize) -> bool) -> usize {
+    let (mut good, mut bad) = (1, 2);
+    while bad < end && fits(bad) {
+        (good, bad) = (bad, 2 * bad);
+    }
+    bad = bad.min(end);
+    while bad - good > 1 {
+        let middle = good + (bad - good) / 2;
+        if fits(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    good
+}
+
+/// Few arcs through the points, as near to all of them as the `noise` (rms, in pixels) requires; each of the `parts` between the given indices is
+/// divided from both of its ends, so that the arcs do not depend on the sense. Closed: the last arc ends at the first vertex. Open: the last vertex ends the line and has no arc.
+pub(super) fn arcs(
+    (points, tangents): (&[Vec2], &[Vec2]),
+    parts: &[usize],
+    is_closed: bool,
+    noise: f64,
+) -> Vec<Vertex> {
     let n = points.len();
-    let last = if is_closed { n } else { n - 1 };
     let at = |k: usize| (points[k % n], tangents[k % n]);
     let fits = |i: usize, j: usize| {
         if j == i + 1 {
@@ -53,34 +75,32 @@ pub(super) fn arcs((points, tangents): (&[Vec2], &[Vec2]), is_closed: bool, nois
         })
     };
     let mut vertices = Vec::new();
-    let mut i = 0;
-    while i < last {
-        // Double the span while it fits, then bisect between the last that fits and the first that does not.
-        let (mut good, mut bad) = (i + 1, i + 2);
-        while bad <= last && fits(i, bad) {
-            (good, bad) = (bad, i + 2 * (bad - i));
-        }
-        let mut bad = bad.min(last + 1);
-        while bad - good > 1 {
-            let middle = good + (bad - good) / 2;
-            if fits(i, middle) {
-                good = middle;
-            } else {
-                bad = middle;
+    // Spans still to be converted, the next one last.
+    let whole = parts.windows(2).rev().map(|part| (part[0], part[1]));
+    let mut spans: Vec<(usize, usize)> = whole.filter(|(i, j)| i < j).collect();
+    while let Some((i, j)) = spans.pop() {
+        if !fits(i, j) {
+            let (ahead, behind) = (longest(j - i, |n| fits(i, i + n)), longest(j - i, |n| fits(j - n, j)));
+            let [mut low, mut high] = [i + ahead, j - behind];
+            if high < low {
+                // One span each from both ends reaches the middle of where they overlap.
+                [low, high] = [(low + high) / 2, (low + high).div_ceil(2)];
             }
+            spans.extend([(high, j), (low, high), (i, low)].into_iter().filter(|(from, to)| from < to));
+            continue;
         }
-        match biarc(at(i), at(good)) {
+        match biarc(at(i), at(j)) {
             Some((joint, a, b)) => {
-                let tangent = Curve::from_bulge(joint, at(good).0, b).tangent(0.0);
+                let tangent = Curve::from_bulge(joint, at(j).0, b).tangent(0.0);
                 vertices.push(Vertex { point: at(i).0, bulge: a, tangent: at(i).1 });
                 vertices.push(Vertex { point: joint, bulge: b, tangent });
             }
             None => vertices.push(Vertex { point: at(i).0, bulge: 0.0, tangent: at(i).1 }),
         }
-        i = good;
     }
     if !is_closed {
-        vertices.push(Vertex { point: at(last).0, bulge: 0.0, tangent: at(last).1 });
+        let (point, tangent) = at(n - 1);
+        vertices.push(Vertex { point, bulge: 0.0, tangent });
     }
     vertices
 }
@@ -131,7 +151,7 @@ mod tests {
         let points: Vec<Vec2> = (0..count).map(|k| unit(at(k)).component_mul(&Vec2::new(a, b))).collect();
         let tangents: Vec<Vec2> =
             (0..count).map(|k| perpendicular(unit(at(k))).component_mul(&Vec2::new(a, b)).normalize()).collect();
-        let vertices = arcs((&points, &tangents), true, noise);
+        let vertices = arcs((&points, &tangents), &[0, count], true, noise);
         assert!(vertices.len() < 40, "{} arcs", vertices.len());
         // The arcs may lie anywhere within the tolerance along the whole ellipse; in practice they alternate about it.
         assert!((area(&vertices, true) - 0.5 * TAU * a * b).abs() < TOLERANCE * noise * movable_length(&vertices));

@@ -14,6 +14,7 @@ mod contour;
 mod outlines;
 mod pixels;
 mod smooth;
+mod symmetry;
 mod wall;
 
 use outlines::Outlines;

@@ -3,7 +3,8 @@
 use super::arcs::{self, Vertex};
 use super::circle::{self, Noise};
 use super::contour::{Crossing, Grid, Line};
-use super::smooth::{moved_out, resampled, smoothed, tangents};
+use super::smooth::{Samples, moved_out, resampled, smoothed, tangents};
+use super::symmetry::starts;
 use crate::geometry::curve::cross;
 use crate::geometry::import::drawing::Ring;
 use crate::math::Vec2;
@@ -51,10 +52,10 @@ pub(super) fn visits(grid: &Grid<'_>, lines: &[Line]) -> Vec<u8> {
     visits
 }
 
-/// The pixels at the corners of the cell that a line enters.
+/// The pixels at the corners of the cell that a line enters, if it does not end there.
 fn cell(grid: &Grid<'_>, at: Crossing) -> impl Iterator<Item = usize> {
     let beside = [at.solid as usize, grid.pore(at)];
-    beside.into_iter().chain(grid.ahead(at).into_iter().flatten())
+    grid.ahead(at).into_iter().flat_map(move |ahead| beside.into_iter().chain(ahead))
 }
 
 /// ½ ∮ (x dy − y dx) of the polyline, closed by a straight edge.
@@ -83,7 +84,7 @@ impl Wall {
             let lack = |line: &[Vec2]| {
                 pixels - polygon_area(&line.iter().chain(middles.iter().rev()).copied().collect::<Vec<_>>())
             };
-            let smooth = smooth(&points, false, noise, lack);
+            let smooth = smooth(resampled(&points, None, SPACING), noise, lack);
             return Some(Self {
                 vertices: vertices(grid, line, &points, &smooth, rough, noise),
                 area: 0.0,
@@ -98,7 +99,8 @@ impl Wall {
         if let Some(center) = center {
             return Some(Self { vertices: circle_vertices(center, area), area, center: Some(center) });
         }
-        let smooth = smooth(&points, true, noise, |line| area - polygon_area(line));
+        let samples = resampled(&points, Some(&starts(grid, line)), SPACING);
+        let smooth = smooth(samples, noise, |line| area - polygon_area(line));
         let mut vertices = vertices(grid, line, &points, &smooth, rough, noise);
         set_area(&mut vertices, area, if rough.is_empty() { f64::INFINITY } else { FARTHEST });
         Some(Self { vertices, area, center: None })
@@ -126,23 +128,27 @@ fn circle_vertices(center: Vec2, area: f64) -> Vec<Vertex> {
         .to_vec()
 }
 
-/// Equidistant points with their tangents.
-type Smooth = (Vec<Vec2>, Vec<Vec2>);
+/// A smooth line: its points, in place of those of the contour, and their tangents.
+struct Smooth {
+    samples: Samples,
+    tangents: Vec<Vec2>,
+}
 
 /// The smoothest line within the noise, displaced outwards to the right area; `lack` is the missing area of a line, in px².
-fn smooth(points: &[Vec2], is_closed: bool, noise: Noise, lack: impl Fn(&[Vec2]) -> f64) -> Smooth {
-    let even = resampled(points, is_closed, SPACING);
-    let length: f64 = even.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+fn smooth(even: Samples, noise: Noise, lack: impl Fn(&[Vec2]) -> f64) -> Smooth {
+    let closing = even.points.first().filter(|_| even.is_closed);
+    let around = even.points.iter().zip(even.points.iter().skip(1).chain(closing));
+    let length: f64 = around.map(|(p, q)| (q - p).norm()).sum();
     let candidate = |step: i32| {
-        let smooth = smoothed(&even, is_closed, 2.0_f64.powf(0.5 * f64::from(step)));
-        let along = tangents(&smooth, is_closed);
+        let smooth = smoothed(&even.points, even.is_closed, 2.0_f64.powf(0.5 * f64::from(step)));
+        let along = tangents(&smooth, even.is_closed);
         let moved = moved_out(&smooth, &along, lack(&smooth) / length);
         (moved, along)
     };
-    let is_within = |(moved, along): &Smooth| {
-        let rests = moved.iter().zip(along).zip(&even).map(|((q, t), p)| cross(*t, p - q));
+    let is_within = |(moved, along): &(Vec<Vec2>, Vec<Vec2>)| {
+        let rests = moved.iter().zip(along).zip(&even.points).map(|((q, t), p)| cross(*t, p - q));
         let (most, squares) = rests.fold((0.0_f64, 0.0), |(most, squares), r| (most.max(r.abs()), squares + r * r));
-        most <= noise.most && squares <= noise.rms * noise.rms * even.len() as f64
+        most <= noise.most && squares <= noise.rms * noise.rms * even.points.len() as f64
     };
     let (mut good, mut bad) = (0, REACHES);
     let mut best = candidate(good);
@@ -155,28 +161,31 @@ fn smooth(points: &[Vec2], is_closed: bool, noise: Noise, lack: impl Fn(&[Vec2])
             bad = middle;
         }
     }
-    best
+    let (points, tangents) = best;
+    Smooth { samples: Samples { points, ..even }, tangents }
 }
 
 /// The smooth line as arcs; at rough crossings, the contour through them as straight edges.
 fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, rough: &[At], noise: Noise) -> Vec<Vertex> {
+    let Smooth { samples, tangents } = smooth;
     if rough.is_empty() {
-        return arcs::arcs((&smooth.0, &smooth.1), line.is_closed, noise.rms);
+        return arcs::arcs((&samples.points, tangents), &samples.parts, line.is_closed, noise.rms);
     }
     // Arc length of each crossing along the contour, and of the end.
     let mut far = vec![0.0];
     for k in 0..points.len() {
         far.push(far[k] + (points[(k + 1) % points.len()] - points[k]).norm());
     }
-    let length = far[if line.is_closed { points.len() } else { points.len() - 1 }];
-    let step = length / (smooth.0.len() - usize::from(!line.is_closed)) as f64;
+    // A point at a crossing is as rough as the crossing, one between two as either.
     let is_rough = |s: f64| {
-        let next = far.partition_point(|&far| far <= s);
-        [next - 1, next].into_iter().any(|k| rough[k % rough.len()] > At::Smooth)
+        let at = [-1e-9, 1e-9].map(|by| far.partition_point(|&far| far < s + by));
+        let beside = if at[0] < at[1] { at[0]..at[1] } else { at[0].saturating_sub(1)..at[0] + 1 };
+        beside.into_iter().any(|k| rough[k % rough.len()] > At::Smooth)
     };
     // Smooth points, replaced by crossings at rough points, in order.
     let mut nodes: Vec<(f64, Option<usize>, usize)> = Vec::new();
-    nodes.extend((0..smooth.0.len()).map(|k| (k as f64 * step, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
+    let along = samples.along.iter().enumerate();
+    nodes.extend(along.map(|(k, &s)| (s, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
     nodes.extend((0..rough.len()).filter(|&k| rough[k] > At::Smooth).map(|k| (far[k], None, k)));
     nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
     if line.is_closed {
@@ -199,7 +208,8 @@ fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, roug
             found.extend(run.iter().map(|node| corner(node.2)));
         } else {
             let pick = |from: &[Vec2]| smooth_run.iter().map(|&k| from[k]).collect::<Vec<_>>();
-            found.extend(arcs::arcs((&pick(&smooth.0), &pick(&smooth.1)), false, noise.rms));
+            let last = smooth_run.len() - 1;
+            found.extend(arcs::arcs((&pick(&samples.points), &pick(tangents)), &[0, last], false, noise.rms));
         }
     }
     found
