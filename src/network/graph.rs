@@ -18,6 +18,12 @@ pub struct WallPiece {
     pub shape: u32,
 }
 
+impl WallPiece {
+    pub(super) fn shifted(&self, by: Vec2) -> Self {
+        Self { curve: self.curve.shifted(by), whole: self.whole.shifted(by), shape: self.shape }
+    }
+}
+
 /// One part of the boundary of a region.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Edge {

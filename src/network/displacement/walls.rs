@@ -51,7 +51,7 @@ pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) 
     let shift = if to == 1 { sides.shift } else { -sides.shift };
     let ahead = ends(mesh, (into, slot), centers[mesh.region_of[into]]);
     let behind = ends(mesh, (out_of, old_slot), centers[mesh.region_of[out_of]]);
-    let moved = |parts: Vec<WallPiece>| parts.into_iter().map(|part| shifted(part, shift)).collect::<Vec<_>>();
+    let moved = |parts: Vec<WallPiece>| parts.into_iter().map(|part| part.shifted(shift)).collect::<Vec<_>>();
     // The wall that leads to the chord on one side continues after the chord on the other side.
     let left = Sides { behind: moved(behind.before.parts), ahead: ahead.after.parts };
     let right = Sides { behind: moved(behind.after.parts), ahead: ahead.before.parts };
@@ -82,7 +82,7 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
         (0..count).filter(|&k| k != slot && k != next).flat_map(|k| part.walls[k].iter().copied()).collect();
     let seams = (0..part.crossings.len()).flat_map(|k| [part.wall_before(k), part.wall_after(k)]);
     if let Some(seam) = seams.into_iter().find(|seam| *seam != Vec2::zeros()) {
-        let beyond = |by: Vec2| others.iter().map(|&piece| shifted(piece, by)).collect::<Vec<_>>();
+        let beyond = |by: Vec2| others.iter().map(|piece| piece.shifted(by)).collect::<Vec<_>>();
         let both = [beyond(seam), beyond(-seam)].concat();
         others.extend(both);
     }
@@ -91,7 +91,7 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
     if slot != next || goes_around {
         let follow_on = |wall: usize, backwards: bool| {
             let by = if backwards { part.wall_before(slot) } else { part.wall_after(slot) };
-            let stretch: Vec<WallPiece> = part.walls[wall].iter().map(|&piece| shifted(piece, by)).collect();
+            let stretch: Vec<WallPiece> = part.walls[wall].iter().map(|piece| piece.shifted(by)).collect();
             let mut followed = follow(&stretch, backwards, center);
             if (count > 2 || goes_around) && followed.rest.is_empty() {
                 extend(mesh, (index, wall, by), backwards, &mut followed.parts);
@@ -126,7 +126,7 @@ fn extend(mesh: &Mesh, (mut index, mut wall, by): (usize, usize, Vec2), backward
         index = beyond;
         let pieces = &mesh.loops[index].walls[wall];
         for k in 0..pieces.len() {
-            let piece = shifted(pieces[if backwards { pieces.len() - 1 - k } else { k }], offset);
+            let piece = pieces[if backwards { pieces.len() - 1 - k } else { k }].shifted(offset);
             if let Some(last) = parts.last() {
                 let (one, next) = if backwards { (&piece.curve, &last.curve) } else { (&last.curve, &piece.curve) };
                 turned += turn(one, next);
@@ -224,10 +224,6 @@ fn half_around(arc: &Curve, backwards: bool) -> Curve {
 fn untrimmed(piece: WallPiece, own: &[Curve]) -> WallPiece {
     let is_seen_whole = piece.whole.is_closed() && own.iter().all(|curve| !is_same(curve, &piece.whole));
     if is_seen_whole { WallPiece { curve: piece.whole, ..piece } } else { piece }
-}
-
-fn shifted(piece: WallPiece, by: Vec2) -> WallPiece {
-    WallPiece { curve: piece.curve.shifted(by), whole: piece.whole.shifted(by), shape: piece.shape }
 }
 
 /// Whether two arcs are on the same circle; arcs are only copied and shifted by whole periods.
