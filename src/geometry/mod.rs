@@ -30,6 +30,7 @@ pub(crate) mod surface;
 pub mod throats;
 pub(crate) mod tree;
 pub(crate) mod validate;
+pub(crate) mod weld;
 pub(crate) mod winding;
 
 pub use shape_file::{ShapeFileError, load};

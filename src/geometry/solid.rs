@@ -9,6 +9,7 @@ use crate::geometry::curve::Curve;
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::geometry::surface;
 use crate::geometry::tree::Tree;
+use crate::geometry::weld::welded;
 use crate::input::problem::Problem;
 use crate::math::{Bounds, FNV1A_BASIS, Vec2, fnv1a};
 
@@ -111,7 +112,8 @@ impl Geometry {
     /// The geometry of a specification whose sizes are known to be valid.
     pub(crate) fn unchecked(spec: &GeometrySpec) -> Self {
         let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
-        let shapes = spec.shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, domain)).collect();
+        let (shapes, _) = welded(&spec.shapes, domain);
+        let shapes = shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, domain)).collect();
         Self {
             domain,
             side: spec.solid,

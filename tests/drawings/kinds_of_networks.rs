@@ -100,6 +100,41 @@ fn grains_that_share_a_corner_let_nothing_through() {
 }
 
 #[test]
+fn rectangles_that_abut_within_their_digits_have_one_outline_and_a_network() {
+    // Their union is 12 of 900, by the exact construction.
+    for (name, digits) in [("near-collinear-6.wkt", 1e-6), ("near-collinear-4.wkt", 1e-4)] {
+        let spec = read(name);
+        assert_near(name, 1.0 - Geometry::new(&spec).unwrap().porosity().value, 12.0 / 900.0, digits);
+        assert!(drained(name, LEFT_RIGHT, 0.0, true)[0].is_finite());
+    }
+}
+
+#[test]
+fn a_disc_at_a_rounding_error_from_a_side_lies_inside() {
+    let porosity = Geometry::new(&read("near-side.xyr")).unwrap().porosity().value;
+    assert!((porosity - (1.0 - std::f64::consts::PI / 16.0)).abs() < 1e-9, "{porosity}");
+}
+
+#[test]
+fn near_equal_posts_have_the_entry_pressure_of_their_gap() {
+    for name in ["three-by-three", "two-by-two", "last-digit", "turned-20"] {
+        let [breakthrough, ..] = drained(&format!("near-equal-{name}.xyr"), LEFT_RIGHT, 0.0, true);
+        // Two over the gap of .4 of the pitch of 1.
+        assert_near(name, breakthrough, 5.0, 2e-5);
+    }
+}
+
+#[test]
+fn rectangles_and_equal_discs_drain_like_their_mirror_image() {
+    let rectangles = ["a", "b"].map(|name| drained(&format!("rectangles-{name}.wkt"), LEFT_RIGHT, 0.0, true));
+    let discs = [("equal-discs.xyr", LEFT_RIGHT), ("equal-discs-mirrored.xyr", RIGHT_LEFT)];
+    let discs = discs.map(|(name, sides)| drained(name, sides, 0.0, true));
+    for [one, other] in [rectangles, discs] {
+        (0..3).for_each(|k| assert_near("mirrored", one[k], other[k], 1e-9));
+    }
+}
+
+#[test]
 fn a_row_of_one_pixel_of_pore_along_a_side_has_a_network() {
     for name in ["left", "right", "bottom", "top", "two-rows", "smallest", "blobs-150"] {
         let [breakthrough, ..] = drained(&format!("row-{name}.png"), LEFT_RIGHT, 0.0, true);

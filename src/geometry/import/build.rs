@@ -13,6 +13,7 @@ use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
 use crate::geometry::import::{frame, overlap, recognize, smooth, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
+use crate::geometry::weld::welded;
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
@@ -92,6 +93,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
     let problems = spec.problems();
     if problems.is_empty() {
+        notes.counts.welded = welded(&spec.shapes, domain).1;
         Ok(Imported { spec, depth: None, notes: notes.lines(options) })
     } else {
         Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &locations)).collect()))

@@ -5,6 +5,7 @@ use std::fmt::Display;
 use crate::geometry::import::drawing::Drawing;
 use crate::geometry::import::options::Options;
 use crate::geometry::spec::ShapeSpec;
+use crate::geometry::weld::WELD;
 use crate::math::Bounds;
 
 /// Statistics of the conversion of a drawing.
@@ -21,6 +22,8 @@ pub(crate) struct Counts {
     areas: [f64; 2],
     /// Number of duplicate vertices removed.
     pub(crate) doubled: usize,
+    /// Number of corners joined with other shapes that they nearly touch.
+    pub(crate) welded: usize,
     /// Number of rings of zero area.
     pub(crate) without_area: usize,
     /// Shapes outside of the window.
@@ -135,6 +138,12 @@ impl Notes {
         }
         if counts.doubled > 0 {
             lines.push(format!("repaired: {} taken out", of(counts.doubled, "doubled vertex")));
+        }
+        if counts.welded > 0 {
+            lines.push(format!(
+                "joined: {} within {WELD:.0e} of the domain's size of another outline",
+                of(counts.welded, "corner")
+            ));
         }
         lines.extend(self.of_reader);
         lines.push(self.domain);
