@@ -164,7 +164,7 @@ fn what_is_trapped_without_time_is_trapped_at_a_vanishing_rate() {
     println!("{trapped} elements trapped in {count} packs");
     // Of events within the tolerance of a step the order may be another one.
     let (packs_off, off) = (other.len() as u64, other.iter().map(|(.., passed)| passed.len()).sum::<usize>());
-    assert!(6 * packs_off <= count && 50 * off <= trapped, "{packs_off} of {count} packs: {other:?}");
+    assert!(packs_off == 0 && off == 0, "{packs_off} of {count} packs: {other:?}");
 }
 
 #[test]
@@ -181,13 +181,13 @@ fn shorter_steps_leave_the_saturation_at_breakthrough() {
             dynamic.breakthrough().unwrap().saturation
         });
         changes.push(ruled - finer);
-        // Where two menisci are about to pass their events the order of both is open.
+        // Where two menisci are about to pass their events, the order of both is open: 3 of 60 packs.
         far += usize::from((ruled - finer).abs() > 0.01);
     }
     println!("{changes:?}");
     let mean = changes.iter().sum::<f64>() / changes.len() as f64;
     assert!(mean.abs() < 0.01, "{mean}");
-    assert!(4 * far <= changes.len(), "{changes:?}");
+    assert!(20 * far <= changes.len(), "{changes:?}");
 }
 
 /// [Primkulov2019]
