@@ -77,8 +77,17 @@ pub(crate) fn is_maximum(walls: &Walls, at: &Maximum) -> bool {
     let is_straight = |contact: &Contact| {
         contact.u > 0.0 && contact.u < 1.0 && matches!(walls.curve(contact.wall, contact.shift), Curve::Segment { .. })
     };
-    let directions: Vec<(Vec2, bool)> =
-        at.contacts.iter().map(|contact| (contact.point - at.center, is_straight(contact))).collect();
+    // The end of a piece whose inside is nearer is no wall of its own, although it is nearly as near where a level passage ends soon.
+    let is_end_of = |end: &Contact, other: &Contact| {
+        let curve = walls.curve(other.wall, other.shift);
+        let ends = || [0.0, 1.0].into_iter().map(|u| (curve.point(u) - end.point).norm());
+        other.u > 0.0 && other.u < 1.0 && ends().any(|far| far <= walls.tolerance)
+    };
+    let own = at.contacts.iter().filter(|contact| {
+        let is_end = contact.u <= 0.0 || contact.u >= 1.0;
+        !(is_end && at.contacts.iter().any(|other| is_end_of(contact, other)))
+    });
+    let directions: Vec<(Vec2, bool)> = own.map(|contact| (contact.point - at.center, is_straight(contact))).collect();
     surrounded(&directions)
 }
 
