@@ -3,7 +3,7 @@
 use super::case_file::{Case, Model};
 use super::sph::Sph;
 use crate::input::Problem;
-use crate::math::Vec2;
+use crate::math::{Vec2, rounded_down};
 
 /// Fewest particles across a throat: below, the kernels of both walls cover all of it.
 pub(crate) const FEWEST_IN_THROAT: f64 = 5.0;
@@ -45,7 +45,7 @@ fn throat(sph: &Sph, facts: &Facts) -> Option<Problem> {
              at least {FEWEST_IN_THROAT} are needed",
             center.x, center.y
         ),
-        help: format!("a spacing of {:.2e} m or less would do", width / FEWEST_IN_THROAT),
+        help: format!("a spacing of {:.2e} m or less would do", rounded_down(width / FEWEST_IN_THROAT)),
     })
 }
 

@@ -8,6 +8,7 @@ use super::output::{Compression, Expectation, Output, RawEvery, RawExpectation};
 use super::steady::{FEWEST_ROWS, SteadyStop, WINDOWS};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
+use crate::math::{rounded_down, rounded_up};
 
 /// Most records of one kind: more files than a folder should hold.
 const MOST_RECORDS: f64 = 1.0e5;
@@ -222,7 +223,7 @@ fn check_window(checker: &mut Checker, window: f64, end: f64, series_every: f64)
         checker.refuse(
             "time.steady.window",
             format!("three windows of {window:?} s do not fit into a run of {end:?} s"),
-            format!("a window of {:.2e} s or less would do, or leave the key out", end / WINDOWS),
+            format!("a window of {:.2e} s or less would do, or leave the key out", rounded_down(end / WINDOWS)),
         );
     } else if window < FEWEST_ROWS * series_every {
         checker.refuse(
@@ -232,8 +233,8 @@ fn check_window(checker: &mut Checker, window: f64, end: f64, series_every: f64)
             ),
             format!(
                 "a window of {:.2e} s or more would do, or a row of the series every {:.2e} s",
-                FEWEST_ROWS * series_every,
-                window / FEWEST_ROWS
+                rounded_up(FEWEST_ROWS * series_every),
+                rounded_down(window / FEWEST_ROWS)
             ),
         );
     }

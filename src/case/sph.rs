@@ -13,7 +13,7 @@ use super::wetting::{self, RawWetting, WettingPatch};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 use crate::input::tables::{Key, tables};
-use crate::math::Vec2;
+use crate::math::{Vec2, rounded_down, rounded_up};
 use crate::wetting::Wetting;
 
 tables! {
@@ -215,7 +215,7 @@ fn particle_count(checker: &mut Checker, spacing: f64, geometry: &GeometrySpec) 
         checker.refuse(
             "sph.spacing",
             format!("a spacing of {spacing:e} m gives {count:.2e} particles in {width:e} m by {height:e} m, more than {MOST_PARTICLES:.0e}"),
-            format!("a spacing of {enough:.1e} m or more would do; the spacing is in m"),
+            format!("a spacing of {:.2e} m or more would do; the spacing is in m", rounded_up(enough)),
         );
     }
     let narrow = across[0].min(across[1]);
@@ -225,7 +225,10 @@ fn particle_count(checker: &mut Checker, spacing: f64, geometry: &GeometrySpec) 
             format!(
                 "a spacing of {spacing:e} m gives {narrow:.1} particles across the domain, fewer than {FEWEST_ACROSS}"
             ),
-            format!("a spacing of {:.1e} m or less would do; the spacing is in m", width.min(height) / FEWEST_ACROSS),
+            format!(
+                "a spacing of {:.2e} m or less would do; the spacing is in m",
+                rounded_down(width.min(height) / FEWEST_ACROSS)
+            ),
         );
     }
 }

@@ -4,12 +4,14 @@ use std::path::Path;
 
 use super::arguments::{GeometryArguments, PeriodicAxes};
 use super::exit::{BUG, DONE, Failure, USAGE};
-use super::output::{readable, say};
+use super::output::{readable, say, tell};
 use super::source::{self, Shapes};
 use super::stages::Stages;
 use super::write_shapes::{formats, write_shapes};
 use crate::io::picture::{PORE, picture};
 use crate::io::{atomic, vtk};
+use crate::math::Vec2;
+use crate::run::description::slip_of_size;
 use crate::snapshot::{Cloud, Field, Snapshot, Values};
 
 /// Stages of loading and measuring, and those of writing.
@@ -33,6 +35,10 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     }
     let none = "none: walls that a case has at its sides may be nearer to the shapes than these are to each other";
     say(format_args!("{:<width$}  {}", "sides", shapes.sides.as_deref().unwrap_or(none)));
+    let [min, max] = [shapes.spec.min, shapes.spec.max].map(Vec2::from);
+    if let Some(slip) = slip_of_size(max - min) {
+        tell(format_args!("  WARNING     {slip}"));
+    }
     if let Some(folder) = &arguments.out {
         let title = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         stages.at("drawing and writing files");
@@ -74,7 +80,6 @@ fn pore(shapes: &Shapes) -> Snapshot<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Vec2;
     use crate::snapshot::{Grid, Lines};
 
     #[test]

@@ -40,47 +40,55 @@ pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
         .collect()
 }
 
-/// Numbers that are valid but rarely intended, each with what may have been intended.
+/// Numbers that are valid but rarely intended, each with what may have been intended, besides [`slips`] of units.
 pub(crate) fn doubts(case: &Case) -> Vec<String> {
-    /// Pores are smaller, in m.
-    const LARGEST: f64 = 1.0;
     /// Above this Bond number, an interface is flat all over the domain.
     const FLAT: f64 = 1e3;
+    let Model::Sph(sph) = &case.model else { return Vec::new() };
+    let bond = numbers(case, Length::of(case), 0.0).into_iter().find(|number| number.symbol == "Bo");
+    let flat = bond
+        .filter(|bond| bond.value > FLAT)
+        .map(|bond| format!("Bo is {}: gravity flattens all interfaces; are lengths in m?", rounded(bond.value)));
+    flat.into_iter().chain(never_at_rest(sph)).chain(ends_early(case, sph)).collect()
+}
+
+/// Numbers of which another unit is likely, each with the unit that is meant.
+pub(crate) fn slips(case: &Case) -> Vec<String> {
     /// No liquid but a molten metal has more, in N/m.
     const STRONGEST: f64 = 1.0;
     /// In degrees: a right angle, and more, in radians.
     const SHARPEST: f64 = 3.2;
-    let mut doubts = Vec::new();
-    let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
     let (tension, range) = match &case.model {
         Model::Sph(sph) => (sph.tension, sph.wetting_model.map(|law| law.hysteresis_range())),
         Model::Network(network) => {
             network.interface.as_ref().map_or((0.0, None), |it| (it.tension, Some(it.wetting_model.hysteresis_range())))
         }
-        Model::ThinFilm(_) => return doubts,
+        Model::ThinFilm(_) => return Vec::new(),
     };
-    if tension > 0.0 && size.max() > LARGEST {
-        doubts.push(format!(
-            "the domain is {} m long: lengths are in m, and a drawing in mm has unit = \"mm\" in [geometry]",
-            rounded(size.max())
-        ));
+    let mut slips = Vec::new();
+    if tension > 0.0 {
+        slips.extend(slip_of_size(Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min)));
     }
     if tension > STRONGEST {
-        doubts.push(format!("the tension is {} N/m: water has 0.0728 against air, 72.8 mN/m", rounded(tension)));
+        slips.push(format!("the tension is {} N/m: water has 0.0728 against air, 72.8 mN/m", rounded(tension)));
     }
     let [least, most] = range.map_or([90.0; 2], |range| range.map(f64::to_degrees));
     if least > 0.0 && most < SHARPEST {
-        doubts.push(format!("the contact angle is {} degrees: angles are in degrees, not in radians", rounded(most)));
+        slips.push(format!("the contact angle is {} degrees: angles are in degrees, not in radians", rounded(most)));
     }
-    if let Model::Sph(sph) = &case.model {
-        let bond = numbers(case, Length::of(case), 0.0).into_iter().find(|number| number.symbol == "Bo");
-        if let Some(bond) = bond.filter(|bond| bond.value > FLAT) {
-            doubts.push(format!("Bo is {}: gravity flattens all interfaces; are lengths in m?", rounded(bond.value)));
-        }
-        doubts.extend(never_at_rest(sph));
-        doubts.extend(ends_early(case, sph));
-    }
-    doubts
+    slips
+}
+
+/// The slip of a domain of this size in m.
+pub fn slip_of_size(size: Vec2) -> Option<String> {
+    /// Pores are smaller, in m.
+    const LARGEST: f64 = 1.0;
+    (size.max() > LARGEST).then(|| {
+        format!(
+            "the domain is {} m long: lengths are in m, also those of a window; a drawing in mm has the unit mm, a pixel its size in m",
+            rounded(size.max())
+        )
+    })
 }
 
 /// A weight along an unbounded wall, and a contact line that is not pinned.
@@ -157,9 +165,10 @@ mod tests {
 
     #[test]
     fn slips_of_units_are_noticed_and_usual_cases_are_right() {
-        assert_eq!(doubts(&case(&[])), [""; 0]);
+        let all = |case: &Case| slips(case).into_iter().chain(doubts(case)).collect::<Vec<_>>();
+        assert_eq!(all(&case(&[])), [""; 0]);
         let noticed = |overrides: &[&str], word: &str| {
-            let found = doubts(&case(overrides));
+            let found = all(&case(overrides));
             assert!(found.iter().any(|doubt| doubt.contains(word)), "{word}: {found:?}");
         };
         noticed(&["sph.interface.tension=27.6"], "27.6 N/m");

@@ -1,5 +1,6 @@
 //! From a checked case to its solver: the only module that depends on both.
 
+use super::description::slips;
 use super::memory::{self, InsufficientMemory};
 use crate::case::{Case, Facts, Model, Side, Sph, check_against};
 use crate::diagram::{Frame, Through};
@@ -139,7 +140,7 @@ pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String
         }
         Model::Network(_) => Vec::new(),
     };
-    of_case.into_iter().chain(solver.warnings(series)).collect()
+    slips(case).into_iter().chain(of_case).chain(solver.warnings(series)).collect()
 }
 
 /// Spacings across a throat below which its menisci and their angles have errors of several degrees.

@@ -5,6 +5,7 @@ use super::droplets::FilmDroplet;
 use super::equation::{FilmEquation, Geometric, Precursor, Slip};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
+use crate::math::rounded_down;
 
 /// Most particles or nodes.
 const MOST_UNKNOWNS: f64 = 1.0e7;
@@ -35,7 +36,7 @@ pub(super) fn resolution(checker: &mut Checker, spacing: f64, equation: FilmEqua
                 "expected at least {FEWEST_IN_DROPLET} spacings in the half width of {half_width:e} m, found {:.2}",
                 half_width / spacing
             ),
-            format!("a spacing of {:.2e} m would do", half_width / FEWEST_IN_DROPLET),
+            format!("a spacing of {:.2e} m would do", rounded_down(half_width / FEWEST_IN_DROPLET)),
         );
     }
     match equation {

@@ -136,9 +136,9 @@ const PROJECTED: &str =
     "a projected system (PROJCS) with a unit of length: project the shapes, or remove the .prj and give `unit`";
 
 /// The unit of a coordinate system in well-known text: the last `UNIT` (or `LENGTHUNIT`) of a projected or local system, since that of its geographic base,
-/// an angle, comes before.
+/// an angle, comes before. Of a compound system it is that of its horizontal part.
 fn unit_of(projection: &str) -> Result<Unit, String> {
-    let text = projection.trim();
+    let text = horizontal(projection.trim());
     let kind: String = text.chars().take_while(|c| c.is_alphanumeric()).collect::<String>().to_ascii_uppercase();
     if matches!(kind.as_str(), "GEOGCS" | "GEOGCRS" | "GEODCRS" | "GEODETICCRS" | "GEOGRAPHICCRS") {
         return Err(format!("a geographic system in degrees, {}", name_of(text)));
@@ -153,6 +153,30 @@ fn unit_of(projection: &str) -> Result<Unit, String> {
         (meters.is_finite() && meters > 0.0).then(|| Unit { name: name.to_owned(), meters })
     });
     found.ok_or_else(|| format!("{} without a unit of length", name_of(text)))
+}
+
+/// The first part of a compound system, which is the horizontal one (OGC 01-009, ISO 19162); another system as it is.
+fn horizontal(text: &str) -> &str {
+    let is_compound = ["COMPD_CS", "COMPOUNDCRS"]
+        .iter()
+        .any(|kind| text.get(..kind.len()).is_some_and(|start| start.eq_ignore_ascii_case(kind)));
+    if !is_compound {
+        return text;
+    }
+    let (mut depth, mut is_quoted, mut start) = (0, false, None);
+    for (at, c) in text.char_indices() {
+        match c {
+            '"' => is_quoted = !is_quoted,
+            _ if is_quoted => {}
+            '[' | '(' => depth += 1,
+            ']' | ')' => depth -= 1,
+            ',' if depth == 1 && start.is_some() => return text.get(start.unwrap_or(0)..at).unwrap_or(text).trim(),
+            // After the name.
+            ',' if depth == 1 => start = Some(at + 1),
+            _ => {}
+        }
+    }
+    start.and_then(|start| text.get(start..)).unwrap_or(text).trim()
 }
 
 /// Kind and name of a coordinate system, for messages.
@@ -177,6 +201,15 @@ mod tests {
         assert!(unit_of("LOCAL_CS[\"chip\"]").unwrap_err().contains("chip"));
         assert_eq!(unit_of("LOCAL_CS[\"chip\",UNIT[\"mm\",0.001]]").unwrap().meters, 1e-3);
         assert!(read(&[0; 200], Some(WGS84)).unwrap_err()[0].location.contains(".prj"));
+    }
+
+    #[test]
+    fn a_compound_system_has_the_unit_of_its_horizontal_part() {
+        let vertical = r#"VERT_CS["height",VERT_DATUM["d",2005],UNIT["metre",1],AXIS["up",UP]]"#;
+        let feet = format!(r#"PROJCS["x, (ftUS)",{WGS84},PROJECTION["p"],UNIT["US survey foot",0.304800609601219]]"#);
+        let of = |horizontal: &str| unit_of(&format!(r#"COMPD_CS["x, (ftUS) + height",{horizontal},{vertical}]"#));
+        assert_eq!(of(&feet).unwrap().name, "US survey foot");
+        assert!(of(WGS84).unwrap_err().contains("degrees"));
     }
 
     #[test]

@@ -35,6 +35,8 @@ pub(crate) struct Header {
     pub(crate) unit: Option<Unit>,
     /// Whether the size is named as a diameter.
     pub(crate) is_diameter: bool,
+    /// Number of names.
+    pub(crate) names: usize,
 }
 
 /// A column name: the index of its quantity in `NAMES`, and the text of its unit.
@@ -62,7 +64,7 @@ impl Header {
             Err(_) if is_given => None,
             unit => unit?,
         };
-        Ok(Self { columns, unit, is_diameter })
+        Ok(Self { columns, unit, is_diameter, names: cells.len() })
     }
 
     /// The header given by a comment that starts with the names of x, y and a size in any order; a unit may follow.

@@ -36,6 +36,12 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
             header = taken(Header::of(&names, options), (line, row), options, &mut lines);
             continue;
         }
+        let numbers = words(data).filter(|word| word.parse::<f64>().is_ok()).count();
+        let is_split = options.columns.is_none() && options.separator.is_none();
+        if let Some(header) = header.as_ref().filter(|header| is_split && numbers > header.names) {
+            lines.refuse(line, row.trim(), more_than_named(numbers, header.names));
+            continue;
+        }
         let columns = Columns::of(data, options, header.as_ref());
         match columns.disc(options.diameters.unwrap_or(false)) {
             Some(outline) => drawing.entities.push(Entity { outline, paint: Paint::Filled, location: at_line(line) }),
@@ -104,6 +110,12 @@ impl<'t> Columns<'t> {
         let is_good = [x, y, radius].iter().all(|v: &f64| v.is_finite()) && radius > 0.0;
         is_good.then_some(Outline::Disc { center: Vec2::new(x, y), radius })
     }
+}
+
+fn more_than_named(numbers: usize, names: usize) -> String {
+    format!(
+        "{names} numbers, one for each name of the header, not {numbers}: a point as decimal sign, and a name for a column of row numbers; or `columns` for the columns of x, y and r"
+    )
 }
 
 fn expected(options: &Options) -> String {

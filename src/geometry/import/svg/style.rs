@@ -4,7 +4,7 @@
 //! Selectors may name an element, an id and classes (`circle.grain`, `#a`, `*`); those with combinators or conditions are counted and ignored. Media rules
 //! are ignored.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Properties in a style sheet that would move or reshape an element.
 pub(crate) const REFUSED: [&str; 14] =
@@ -16,7 +16,10 @@ use svgtypes::{Color, Paint};
 use crate::geometry::import::drawing::FillRule;
 
 /// The relevant properties, also as attributes.
-const PROPERTIES: [&str; 14] = [
+const PROPERTIES: [&str; 17] = [
+    "color",
+    "stop-color",
+    "stop-opacity",
     "display",
     "visibility",
     "fill",
@@ -71,6 +74,8 @@ pub(crate) struct Style {
     pub(crate) has_stroke: bool,
     /// Whether it has a clip or a mask of its own.
     pub(crate) is_clipped: bool,
+    /// The property `color`, which `currentColor` names.
+    color: Fill,
     paint: [Fill; 2],
     opacity: [f64; 2],
     stroke_width: f64,
@@ -85,6 +90,7 @@ impl Default for Style {
             rule: FillRule::NonZero,
             has_stroke: false,
             is_clipped: false,
+            color: Fill::Other,
             paint: [Fill::Other, Fill::None],
             opacity: [1.0; 2],
             stroke_width: 1.0,
@@ -96,21 +102,27 @@ impl Style {
     /// The style of an element whose parent has this style.
     pub(crate) fn of_child(&self, node: Node, sheet: &StyleSheet) -> Self {
         let mut style = Self { is_removed: false, is_clipped: false, ..*self };
-        sheet.for_each(node, |_, name, value| style.set(name, value, self));
+        // Other properties may refer to the color.
+        sheet.for_each(node, |_, name, value| {
+            if name == "color" && value != "inherit" {
+                style.color = paint(value, self.color, sheet);
+            }
+        });
+        sheet.for_each(node, |_, name, value| style.set(name, value, self, sheet));
         style.fill = if style.opacity[0] > 0.0 { style.paint[0] } else { Fill::None };
         style.has_stroke = style.paint[1] != Fill::None && style.opacity[1] > 0.0 && style.stroke_width > 0.0;
         style
     }
 
-    fn set(&mut self, name: &str, value: &str, parent: &Self) {
+    fn set(&mut self, name: &str, value: &str, parent: &Self, sheet: &StyleSheet) {
         let inherits = value == "inherit";
         match name {
             "display" => self.is_removed |= value == "none",
             "opacity" => self.is_removed |= number(value) == Some(0.0),
             "visibility" if inherits => self.is_visible = parent.is_visible,
             "visibility" => self.is_visible = value == "visible",
-            "fill" => self.paint[0] = if inherits { parent.paint[0] } else { paint(value) },
-            "stroke" => self.paint[1] = if inherits { parent.paint[1] } else { paint(value) },
+            "fill" => self.paint[0] = if inherits { parent.paint[0] } else { paint(value, self.color, sheet) },
+            "stroke" => self.paint[1] = if inherits { parent.paint[1] } else { paint(value, self.color, sheet) },
             "fill-rule" if inherits => self.rule = parent.rule,
             "fill-rule" => self.rule = if value == "evenodd" { FillRule::EvenOdd } else { FillRule::NonZero },
             "fill-opacity" => self.opacity[0] = number(value).unwrap_or(parent.opacity[0]),
@@ -128,11 +140,19 @@ fn number(value: &str) -> Option<f64> {
     value[..end].parse().ok()
 }
 
-fn paint(value: &str) -> Fill {
+/// Smallest value of a channel of a color that counts as white.
+const WHITE: u8 = 250;
+
+/// The fill by a value; `current` is that of `currentColor`.
+fn paint(value: &str, current: Fill, sheet: &StyleSheet) -> Fill {
+    // A color of a printer may follow one of a screen.
+    let value = value.split("icc-color").next().unwrap_or_default().trim();
     match Paint::from_str(value) {
         Ok(Paint::None) => Fill::None,
+        Ok(Paint::CurrentColor) => current,
         Ok(Paint::Color(Color { alpha: 0, .. })) => Fill::None,
-        Ok(Paint::Color(Color { red: 255, green: 255, blue: 255, .. })) => Fill::White,
+        Ok(Paint::Color(Color { red, green, blue, .. })) if red.min(green).min(blue) >= WHITE => Fill::White,
+        Ok(Paint::FuncIRI(id, _)) if sheet.white_gradients.contains(id) => Fill::White,
         _ => Fill::Other,
     }
 }
@@ -146,6 +166,8 @@ pub(crate) struct StyleSheet {
     number: usize,
     /// Number of selectors that are not understood.
     pub(crate) left_out: usize,
+    /// The ids of gradients whose stops are all white.
+    white_gradients: BTreeSet<String>,
 }
 
 #[derive(Debug, Clone)]
@@ -172,7 +194,43 @@ impl StyleSheet {
             let text: String = node.children().filter_map(|child| child.text()).collect();
             sheet.read(&without_comments(&text));
         }
+        sheet.white_gradients = sheet.white_gradients_of(document);
         sheet
+    }
+
+    fn white_gradients_of(&self, document: &Document) -> BTreeSet<String> {
+        let is_gradient = |node: &Node| matches!(node.tag_name().name(), "linearGradient" | "radialGradient");
+        let gradients: BTreeMap<&str, Node> =
+            document.descendants().filter(is_gradient).filter_map(|node| Some((node.attribute("id")?, node))).collect();
+        let is_white = |stop: Node| {
+            let mut fill = Fill::Other;
+            self.for_each(stop, |_, name, value| {
+                if name == "stop-color" {
+                    fill = paint(value, Fill::Other, self);
+                }
+            });
+            fill == Fill::White
+        };
+        let stops = |gradient: &Node| {
+            let mut gradient = *gradient;
+            // A gradient without stops has those of the one that it refers to.
+            for _ in 0..gradients.len() {
+                let own: Vec<bool> =
+                    gradient.children().filter(|child| child.tag_name().name() == "stop").map(is_white).collect();
+                let href = gradient.attributes().find(|attribute| attribute.name() == "href");
+                let id = href.as_ref().and_then(|href| href.value().trim().strip_prefix('#'));
+                match id.and_then(|id| gradients.get(id)) {
+                    Some(next) if own.is_empty() => gradient = *next,
+                    _ => return own,
+                }
+            }
+            Vec::new()
+        };
+        let white = gradients.iter().filter(|(_, gradient)| {
+            let stops = stops(gradient);
+            !stops.is_empty() && stops.iter().all(|is_white| *is_white)
+        });
+        white.map(|(id, _)| (*id).to_owned()).collect()
     }
 
     /// A selector with more rules than are tested.

@@ -232,6 +232,35 @@ fn closed_outlines_without_fill_are_shapes_and_open_ones_are_not() {
 }
 
 #[test]
+fn white_is_white_however_it_is_written() {
+    let gradient = "<defs><linearGradient id='g'><stop offset='0' stop-color='#fff'/><stop offset='1' style='stop-color:white'/>\
+                    </linearGradient><linearGradient id='h' href='#g'/><linearGradient id='k'><stop stop-color='red'/></linearGradient></defs>";
+    for white in ["#FEFEFE", "rgb(255,255,255)", "#fff icc-color(x, 0, 0, 0, 0)", "url(#g)", "url(#h)", "currentColor"]
+    {
+        let text =
+            format!("{gradient}<g color='white'><rect width='10' height='5'/><circle r='3' fill='{white}'/></g>");
+        assert_eq!(drawn(&text).entities[1].paint, Paint::White, "{white}");
+    }
+    for other in ["url(#k)", "#f0f0f0", "currentColor"] {
+        let text = format!("{gradient}<rect width='10' height='5'/><circle r='3' fill='{other}'/>");
+        assert_eq!(drawn(&text).entities[1].paint, Paint::Filled, "{other}");
+    }
+}
+
+#[test]
+fn elements_for_other_languages_and_extensions_are_not_drawn() {
+    let german = "<rect systemLanguage='de' width='3' height='3'/>";
+    let english = "<rect systemLanguage='fr, en-GB' width='2' height='2'/>";
+    let plain = "<rect width='1' height='1'/>";
+    let count = |text: &str| drawn(text).entities.len();
+    assert_eq!(count(&format!("<switch>{german}{plain}{english}</switch>")), 1);
+    assert_eq!(
+        count(&format!("{german}{english}{plain}<rect requiredExtensions='http://a' width='9' height='9'/>")),
+        2
+    );
+}
+
+#[test]
 fn shapes_are_white_only_where_others_are_not() {
     let white = "<rect width='100' height='50' style='fill: #ffffff'/>";
     assert_eq!(drawn(white).entities.len(), 1);

@@ -99,6 +99,15 @@ pub(crate) fn drawing(
     walk.finish()
 }
 
+/// Whether the conditions of an element are met by a program without extensions, in English (SVG 1.1, 5.8).
+fn is_shown(node: &Node) -> bool {
+    let is_english = |languages: &str| {
+        let mut languages = languages.split(',').map(|language| language.trim().to_ascii_lowercase());
+        languages.any(|language| language == "en" || language.starts_with("en-"))
+    };
+    node.attribute("requiredExtensions").is_none() && node.attribute("systemLanguage").is_none_or(is_english)
+}
+
 /// Properties that an element inherits from its parents.
 #[derive(Clone)]
 struct Context<'a> {
@@ -155,6 +164,9 @@ impl<'a, 'input> Walk<'a, 'input> {
         if self.is_over || is_foreign {
             return;
         }
+        if !is_shown(&node) {
+            return self.count("elements for other programs or languages");
+        }
         let name = node.tag_name().name();
         if NOT_DRAWN.contains(&name) {
             return;
@@ -179,10 +191,8 @@ impl<'a, 'input> Walk<'a, 'input> {
                 self.children(node, &context);
             }
             "switch" => {
-                let is_shown = |child: &Node| child.is_element() && child.attribute("requiredExtensions").is_none();
-                if let Some(child) =
-                    node.children().find(|child| is_shown(child) && child.tag_name().name() != "foreignObject")
-                {
+                let is_drawn = |child: &Node| child.is_element() && child.tag_name().name() != "foreignObject";
+                if let Some(child) = node.children().find(|child| is_drawn(child) && is_shown(child)) {
                     self.element(child, &context);
                 }
             }
