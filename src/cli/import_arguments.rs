@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::geometry::import::Options;
+use crate::geometry::import::{Frame, Options};
 
 /// How a drawing is read: the keys of `[geometry]` besides `file`.
 #[derive(Debug, Clone, Default, Args)]
@@ -47,6 +47,9 @@ pub(crate) struct ImportArguments {
     /// The third column of a list of discs is the diameter
     #[arg(long)]
     pub(crate) diameters: bool,
+    /// The outline without fill around all others: a frame with the pore inside, or the rim of a solid plate
+    #[arg(long, value_name = "pore|solid", value_parser = frame)]
+    pub(crate) frame: Option<Frame>,
 }
 
 impl ImportArguments {
@@ -66,8 +69,14 @@ impl ImportArguments {
             columns: self.columns,
             separator: self.separator,
             diameters: self.diameters.then_some(true),
+            frame: self.frame,
         }
     }
+}
+
+fn frame(text: &str) -> Result<Frame, String> {
+    let all = [Frame::Pore, Frame::Solid];
+    all.into_iter().find(|frame| frame.name() == text).ok_or_else(|| "expected pore or solid".to_owned())
 }
 
 /// `N` numbers separated by commas.

@@ -80,7 +80,7 @@ pub(crate) fn slips(case: &Case) -> Vec<String> {
 }
 
 /// The slip of a domain of this size in m.
-pub fn slip_of_size(size: Vec2) -> Option<String> {
+pub(crate) fn slip_of_size(size: Vec2) -> Option<String> {
     /// Pores are smaller, in m.
     const LARGEST: f64 = 1.0;
     (size.max() > LARGEST).then(|| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use meniscus::geometry::import::{Imported, Options};
+use meniscus::geometry::import::{Frame, Imported, Options};
 use meniscus::geometry::load;
 use meniscus::geometry::spec::ShapeSpec;
 
@@ -127,6 +127,74 @@ fn tiff_images_stand_as_their_orientation_says() {
     let options = Options { pixel_size: Some(1e-6), ..Options::default() };
     let notes = read("orientation.tif", &options).notes.join("\n");
     assert!(notes.contains("as its orientation"), "{notes}");
+}
+
+/// Porosity of discs of this radius in a box.
+fn discs_in(count: f64, radius: f64, [width, height]: [f64; 2]) -> f64 {
+    1.0 - count * PI * radius * radius / (width * height)
+}
+
+#[test]
+fn frames_of_any_outline_are_no_grains_and_a_question_where_they_may_be_plates() {
+    // Layers or fills tell what is a frame.
+    let posts = |name: &str| -> f64 {
+        let found = read(name, &Options::default());
+        let discs = discs(&found.spec);
+        let size = [0, 1].map(|i| found.spec.max[i] - found.spec.min[i]);
+        let right = discs_in(discs.len() as f64, discs[0].radius, size);
+        assert!((porosity(&found.spec) - right).abs() < 1e-9, "{name}: {}", porosity(&found.spec));
+        discs.len() as f64
+    };
+    assert_eq!(["frame-octagon.dxf", "frame-rounded.dxf", "frame-two.svg"].map(posts), [16.0; 3]);
+    // Without them the command asks, with both readings, and the option answers.
+    let nine = [9.0, 9.0];
+    for (name, pore, solid) in [
+        ("frame-circle.svg", discs_in(9.0, 0.5, [10.0; 2]), 1.0 - PI * (4.9 * 4.9 - 9.0 * 0.25) / 100.0),
+        ("frame-rectangle.svg", discs_in(16.0, 0.5, [10.0; 2]), 1.0 - (81.0 - 16.0 * PI * 0.25) / 100.0),
+        (
+            "frame-lines.dxf",
+            discs_in(16.0, 0.5, nine),
+            discs_in(-16.0, 0.5, nine.map(|x| 1.2 * x)) - 81.0 / 1.44 / 81.0,
+        ),
+    ] {
+        let error = load(&file(&format!("kinds/{name}")), &Options::default()).unwrap_err().to_string();
+        assert!(error.contains("two ways"), "{name}: {error}");
+        for (frame, right) in [(Frame::Pore, pore), (Frame::Solid, solid)] {
+            let found = porosity(&read(name, &Options { frame: Some(frame), ..Options::default() }).spec);
+            println!("{name:24} {frame:?} {found:.6} {right:.6}");
+            assert!((found - right).abs() < 1e-9, "{name} {frame:?}: {found} {right}");
+        }
+    }
+}
+
+#[test]
+fn a_chamber_in_a_wafer_is_the_pore_and_posts_may_cross_its_wall() {
+    let found = read("lab-chip.dxf", &Options::default()).spec;
+    // The chamber of 12 by 8 with two channels of 2 by 1, in a box of 16 by 8.
+    let posts: f64 = discs(&found).iter().map(|post| PI * post.radius * post.radius * 1e6).sum();
+    let right = (12.0 * 8.0 + 2.0 * 2.0 - posts) / (16.0 * 8.0);
+    assert!((porosity(&found) - right).abs() < 1e-9, "{} {right}", porosity(&found));
+    let cut = porosity(&read("lab-chip-cut-lattice.dxf", &Options::default()).spec);
+    // By the union of shapely with 1024 and 4096 points on each circle, extrapolated.
+    assert!((cut - 0.594_451_391_6).abs() < 1e-9, "{cut}");
+}
+
+#[test]
+fn lists_with_more_numbers_than_names_are_refused() {
+    let options = Options { window: Some([[0.0; 2], [1e-4, 6e-5]]), ..Options::default() };
+    for name in ["list-comma-decimals.csv", "list-one-comma-decimal.csv"] {
+        let error = load(&file(&format!("kinds/{name}")), &options).unwrap_err().to_string();
+        assert!(error.contains("one for each name"), "{name}: {error}");
+    }
+    let right = porosity(&read("list-right.csv", &options).spec);
+    assert!((right - (1.0 - PI * (10.5 * 10.5 + 12.5 * 12.5) / 6000.0)).abs() < 1e-9, "{right}");
+}
+
+#[test]
+fn white_of_any_kind_and_languages_of_svg_are_read_as_browsers_do() {
+    let square = 1.0 - (36.0 - 4.0 * PI) / 100.0;
+    check(&[("white-fefefe.svg", square), ("white-gradient.svg", square), ("white.svg", square)], &Options::default());
+    check(&[("language-switch.svg", 0.96), ("language-extension.svg", 0.96)], &Options::default());
 }
 
 #[test]

@@ -5,13 +5,15 @@ use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Refusal, Ring, shape_of};
 use crate::geometry::import::fill::{filled, without_slits};
 use crate::geometry::import::format::Format;
-use crate::geometry::import::nest::{Nested, Region, nested, regions};
+use crate::geometry::import::frame::{self, Ambiguous, Framed};
+use crate::geometry::import::nest::{Nested, Region, circle, nested, regions};
 use crate::geometry::import::notes::{Counts, Notes};
-use crate::geometry::import::options::Options;
+use crate::geometry::import::options::{Frame, Options};
 use crate::geometry::import::paint::{Painted, solids};
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
-use crate::geometry::import::{frame, overlap, recognize, smooth, window};
+use crate::geometry::import::{overlap, recognize, smooth, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
+use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::geometry::weld::welded;
 use crate::input::problem::Problem;
@@ -51,22 +53,102 @@ struct Placed {
     location: String,
 }
 
+/// What else a drawing says, in m.
+struct Sheet {
+    frame: Option<Bounds>,
+    has_page: bool,
+    nesting: Nesting,
+    is_of_pixels: bool,
+}
+
 /// The shapes of a drawing in m.
 pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Result<Imported, Refused> {
     let (scale, unit) = options.length_of_unit(&drawing, format).map_err(|p| Refused::Keys(vec![p]))?;
     let mut notes = Notes::new(unit, &drawing);
     let Drawing { has_page, nesting, is_of_pixels, .. } = drawing;
-    let mut refusals = Vec::new();
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
-    let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
-    let chip = frame::taken_out(&mut outlines, &mut notes);
-    let frame = frame.or(chip);
+    let sheet = Sheet { frame, has_page, nesting, is_of_pixels };
+    let mut refusals = Vec::new();
+    let outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
+    let mut remaining = outlines.clone();
+    match frame::taken_out(&mut remaining, options, &mut notes) {
+        Ok(framed) => completed(remaining, framed, &sheet, options, notes, refusals),
+        Err(Ambiguous(what)) => Err(Refused::Keys(vec![question(&what, &outlines, &sheet, options, &notes)])),
+    }
+}
+
+/// The question which of two readings is meant, with both.
+fn question(what: &str, outlines: &[Entity], sheet: &Sheet, options: &Options, notes: &Notes) -> Problem {
+    let mut message = format!("the drawing can be read in two ways: {what}");
+    for (frame, text) in [
+        (Frame::Pore, "it is the frame of the chip or the wall of the pore, and the others are grains"),
+        (Frame::Solid, "it is the rim of a plate, and the others are holes"),
+    ] {
+        let (mut remaining, mut notes) = (outlines.to_vec(), notes.clone());
+        let options = Options { frame: Some(frame), ..options.clone() };
+        let read = frame::taken_out(&mut remaining, &options, &mut notes)
+            .ok()
+            .and_then(|framed| completed(remaining, framed, sheet, &options, notes, Vec::new()).ok());
+        message += &format!("\n\nframe = \"{}\": {text}", frame.name());
+        match read {
+            Some(Imported { spec, .. }) => {
+                let geometry = Geometry::unchecked(&spec);
+                let (porosity, solids) = (geometry.porosity().value, spec.shapes.len());
+                message += &format!("; porosity {porosity:.4}, {solids} solids\n{}", sketch(&geometry));
+            }
+            None => message += "; it cannot be read so",
+        }
+    }
+    Problem::new("frame", message, "add `frame = \"pore\"` (--frame pore), or `frame = \"solid\"` (--frame solid)")
+}
+
+/// A geometry in characters, solid as `#`.
+fn sketch(geometry: &Geometry) -> String {
+    /// Columns; a character is twice as high as wide.
+    const COLUMNS: usize = 48;
+    const MOST_ROWS: usize = 24;
+    let Bounds { min, max } = geometry.bounds();
+    let size = max - min;
+    let rows = ((0.5 * COLUMNS as f64 * size.y / size.x).round() as usize).clamp(1, MOST_ROWS);
+    let at = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
+    let row = |j: usize| -> String {
+        let mark = |i: usize| {
+            let x = min + size.component_mul(&Vec2::new(at(i, COLUMNS), at(rows - 1 - j, rows)));
+            if geometry.is_solid(x) { '#' } else { '.' }
+        };
+        (0..COLUMNS).map(mark).collect()
+    };
+    (0..rows).map(row).collect::<Vec<_>>().join("\n")
+}
+
+/// The shapes of the outlines without the frame.
+fn completed(
+    outlines: Vec<Entity>,
+    Framed { domain: framed, chamber, is_plate }: Framed,
+    sheet: &Sheet,
+    options: &Options,
+    mut notes: Notes,
+    mut refusals: Vec<Refusal>,
+) -> Result<Imported, Refused> {
+    let frame = sheet.frame.or(framed);
     let mut shapes = Vec::new();
-    let regions = grouped(outlines, nesting, &mut notes, &mut refusals).into_iter();
+    let nesting = if is_plate { Nesting::OfAll } else { sheet.nesting };
+    let mut regions = grouped(outlines, nesting, &mut notes, &mut refusals);
+    if let Some((ring, location)) = chamber {
+        let (domain, _) = domain(ring.bounds(), frame, options);
+        match frame::around_chamber(&ring, domain) {
+            Some(solid) => regions.extend(solid.into_iter().map(|region| (region, location.clone()))),
+            None => {
+                let expected = "an outline that does not cross itself".to_owned();
+                refusals.push(Refusal { location, found: "the wall of the pore".into(), expected });
+            }
+        }
+    }
     let sound = regions
+        .into_iter()
         .flat_map(|(region, location)| without_slits(region).into_iter().map(move |one| (one, location.clone())));
     for (region, location) in sound {
-        shapes.push(Placed { shape: recognized(region, is_of_pixels, options, &mut notes.counts), location });
+        shapes.push(Placed { shape: recognized(region, sheet.is_of_pixels, options, &mut notes.counts), location });
     }
     if !refusals.is_empty() {
         return Err(Refused::Parts(refusals));
@@ -79,7 +161,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let around = bounds_of_points(shapes.iter().flat_map(|placed| corners_of(&placed.shape)));
     let (domain, from) = domain(around, frame, options);
     notes.domain(domain, from);
-    if options.window.is_some() || (frame.is_some() && has_page) {
+    if options.window.is_some() || (frame.is_some() && sheet.has_page) {
         let before = shapes.len();
         shapes.retain(|placed| window::reaches(&placed.shape, domain));
         notes.counts.outside = before - shapes.len();
@@ -89,7 +171,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     }
     notes.counts.shapes(shapes.iter().map(|placed| &placed.shape));
     let (locations, shapes): (Vec<_>, Vec<_>) = shapes.into_iter().map(|one| (one.location, one.shape)).unzip();
-    let solid = if options.is_inverted() && !is_of_pixels { SolidSide::Outside } else { SolidSide::Inside };
+    let solid = if options.is_inverted() && !sheet.is_of_pixels { SolidSide::Outside } else { SolidSide::Inside };
     let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
     let problems = spec.problems();
     if problems.is_empty() {
@@ -274,11 +356,6 @@ fn nested_entities(entities: Vec<Entity>, notes: &mut Notes, refusals: &mut Vec<
         ((rings[nested.outer].clone(), holes), locations[nested.outer].clone())
     };
     all.into_iter().map(region).collect()
-}
-
-/// A circle as a ring of two half circles.
-fn circle(center: Vec2, radius: f64) -> Ring {
-    Ring { vertices: vec![[center.x - radius, center.y, 1.0], [center.x + radius, center.y, 1.0]] }
 }
 
 /// The shape of a region: circles behind polygons and arcs behind runs of vertices are recognized if the options ask for it.

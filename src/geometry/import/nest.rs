@@ -57,7 +57,7 @@ pub(crate) fn nested(rings: &[Ring], rule: FillRule) -> Vec<Nested> {
 }
 
 /// For each ring the indices of those that contain it.
-fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
+pub(crate) fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
     let mut around = vec![Vec::new(); rings.len()];
     if rings.len() < 2 {
         return around;
@@ -164,6 +164,11 @@ fn spans(curve: &Curve, ends: [f64; 2]) -> Vec<Span> {
                 .collect()
         }
     }
+}
+
+/// A circle as a ring of two half circles.
+pub(crate) fn circle(center: Vec2, radius: f64) -> Ring {
+    Ring { vertices: vec![[center.x - radius, center.y, 1.0], [center.x + radius, center.y, 1.0]] }
 }
 
 /// An outer ring with its holes.

@@ -58,7 +58,7 @@ impl Counts {
 }
 
 /// The notes of a drawing in preparation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Notes {
     /// Statistics of its shapes.
     pub(crate) counts: Counts,

@@ -1,13 +1,14 @@
 //! User options for a drawing: unit, window, layers, reading of masks and lists. All keys are optional.
 
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::import::drawing::{Drawing, Unit};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::units;
 use crate::input::Range;
 use crate::input::problem::Problem;
-use crate::input::tables::Key;
+use crate::input::tables::{Key, Value};
 
 /// Vertices with smaller angles than this, in degrees, belong to a smooth curve.
 pub(crate) const SMOOTH_BELOW_DEG: f64 = 20.0;
@@ -23,6 +24,27 @@ pub(crate) const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0
 pub(crate) const PIXEL_SIZE: Key = SCALE;
 /// Angle of a smooth vertex.
 pub(crate) const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
+
+/// What the outline around all others of a drawing without fills is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Frame {
+    /// The frame of a chip or the wall of a chamber: its inside is the pore.
+    Pore,
+    /// The rim of a solid plate with holes.
+    Solid,
+}
+
+impl Value for Frame {}
+
+impl Frame {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Pore => "pore",
+            Self::Solid => "solid",
+        }
+    }
+}
 
 /// Keys of `[geometry]` besides `file`, and options of the command line.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -54,6 +76,8 @@ pub struct Options {
     pub separator: Option<char>,
     /// Whether the third column of a list holds diameters (default no).
     pub diameters: Option<bool>,
+    /// What the outline around all others is, where a drawing leaves it open.
+    pub frame: Option<Frame>,
 }
 
 impl Options {
@@ -118,6 +142,7 @@ impl Options {
         misplaced("columns", self.columns.is_some(), &[Format::List], "lists of discs");
         misplaced("diameters", self.diameters.is_some(), &[Format::List], "lists of discs");
         misplaced("separator", self.separator.is_some(), &[Format::List], "lists of discs");
+        misplaced("frame", self.frame.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
         let drawn = [Format::Wkt, Format::GeoJson, Format::Shapefile, Format::Svg, Format::Dxf, Format::Mask];
         misplaced("recognize-circles", self.recognize_circles.is_some(), &drawn, "drawings with polygons");
         misplaced("smooth-below-deg", self.smooth_below_deg.is_some(), &drawn, "drawings with polygons");
