@@ -112,7 +112,7 @@ impl Geometry {
     /// The geometry of a specification whose sizes are known to be valid.
     pub(crate) fn unchecked(spec: &GeometrySpec) -> Self {
         let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
-        let (shapes, _) = welded(&spec.shapes, domain);
+        let shapes = welded(&spec.shapes, domain);
         let shapes = shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, domain)).collect();
         Self {
             domain,

@@ -23,23 +23,39 @@ struct Edge {
     points: Vec<Vec2>,
 }
 
-/// The shapes with nearly coincident corners and edges made coincident, and how many corners were moved or added.
-pub(crate) fn welded(shapes: &[ShapeSpec], domain: Bounds) -> (Vec<ShapeSpec>, usize) {
-    let size = domain.size().max();
+/// A ring of corners, each with the bulge of the edge that begins there.
+type Corners = Vec<[f64; 3]>;
+
+/// The shapes with nearly coincident corners and edges made coincident.
+pub(crate) fn welded(shapes: &[ShapeSpec], domain: Bounds) -> Vec<ShapeSpec> {
+    let rings: Vec<Vec<Corners>> = shapes.iter().map(rings_of).collect();
+    let mut found = shapes.to_vec();
+    for (index, rings) in weld(&rings, domain.size().max()).0 {
+        found[index] = with_rings(&shapes[index], rings);
+    }
+    found
+}
+
+/// The shapes of these rings that change where nearly coincident corners and edges are made coincident, by their indices, and how many corners were moved or
+/// added; `size` is that of the domain in m.
+pub(crate) fn weld(shapes: &[Vec<Corners>], size: f64) -> (Vec<(usize, Vec<Corners>)>, usize) {
     let (mut edges, mut of_shape) = (Vec::new(), Vec::new());
-    for spec in shapes {
+    for rings in shapes {
         let first = edges.len();
-        edges.extend(edges_of(spec));
+        // Arcs alone have no edges that others could nearly coincide with.
+        if rings.iter().flatten().any(|corner| corner[2] == 0.0) {
+            edges.extend(rings.iter().enumerate().flat_map(|(ring, corners)| edges_of(ring, corners)));
+        }
         of_shape.push(first..edges.len());
     }
     let boxes = edges.iter().map(|edge| around(&edge.points).grown(2.0 * WELD * size));
     let mut weld = Weld { tree: Tree::over(boxes), edges, within: WELD * size, coincident: COINCIDENT * size };
-    let (mut found, mut count) = (shapes.to_vec(), 0);
-    for (spec, edges) in found.iter_mut().zip(of_shape) {
+    let (mut found, mut count) = (Vec::new(), 0);
+    for (index, edges) in of_shape.into_iter().enumerate() {
         let changes = weld.fit(edges.clone());
         if changes > 0 {
             count += changes;
-            *spec = with_edges(spec, &weld.edges[edges]);
+            found.push((index, corners_of(&weld.edges[edges])));
         }
     }
     (found, count)
@@ -124,9 +140,28 @@ fn projection(x: Vec2, a: Vec2, b: Vec2) -> Option<Vec2> {
     (0.0..=1.0).contains(&share).then(|| a + along * share)
 }
 
-/// The edges of the rings of a shape in the frame of the domain; none of a shape without straight edges that has corners.
-fn edges_of(spec: &ShapeSpec) -> Vec<Edge> {
-    let (rings, position, rotation_deg): (Vec<Vec<[f64; 3]>>, _, _) = match spec {
+fn edges_of(ring: usize, corners: &[[f64; 3]]) -> Vec<Edge> {
+    let place = |[x, y, _]: [f64; 3]| Vec2::new(x, y);
+    let next = corners.iter().cycle().skip(1);
+    let edge = |(&a, &b): (&[f64; 3], &[f64; 3])| Edge { ring, bulge: a[2], points: vec![place(a), place(b)] };
+    corners.iter().zip(next).map(edge).collect()
+}
+
+/// The rings of these edges.
+fn corners_of(edges: &[Edge]) -> Vec<Corners> {
+    let ring = |edges: &[Edge]| {
+        let starts =
+            |edge: &Edge| edge.points[..edge.points.len() - 1].iter().map(|p| [p.x, p.y, edge.bulge]).collect();
+        let mut ring: Corners = edges.iter().flat_map(|edge| -> Corners { starts(edge) }).collect();
+        ring.dedup_by(|next, last| next[..2] == last[..2]);
+        ring
+    };
+    edges.chunk_by(|a, b| a.ring == b.ring).map(ring).collect()
+}
+
+/// The rings of a shape in the frame of the domain; none of a shape without corners.
+fn rings_of(spec: &ShapeSpec) -> Vec<Corners> {
+    let (rings, position, rotation_deg): (Vec<Corners>, _, _) = match spec {
         ShapeSpec::Rectangle(Rectangle { center, size: [width, height], rotation_deg }) => {
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
             (vec![corners.map(|[x, y]| [0.5 * x * width, 0.5 * y * height, 0.0]).to_vec()], *center, *rotation_deg)
@@ -135,45 +170,30 @@ fn edges_of(spec: &ShapeSpec) -> Vec<Edge> {
             let straight = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect();
             (std::iter::once(outer).chain(holes).map(straight).collect(), *position, *rotation_deg)
         }
-        ShapeSpec::CurvedPolygon(CurvedPolygon { outer, holes, position, rotation_deg })
-            if std::iter::once(outer).chain(holes).flatten().any(|corner| corner[2] == 0.0) =>
-        {
+        ShapeSpec::CurvedPolygon(CurvedPolygon { outer, holes, position, rotation_deg }) => {
             (std::iter::once(outer).chain(holes).cloned().collect(), *position, *rotation_deg)
         }
         _ => return Vec::new(),
     };
     let turn = nalgebra::Rotation2::new(rotation_deg.to_radians());
-    let place = |[x, y, _]: [f64; 3]| turn * Vec2::new(x, y) + Vec2::from(position);
-    let of_ring = |(ring, corners): (usize, &Vec<[f64; 3]>)| {
-        let next = corners.iter().cycle().skip(1);
-        let edge = |(&a, &b): (&[f64; 3], &[f64; 3])| Edge { ring, bulge: a[2], points: vec![place(a), place(b)] };
-        corners.iter().zip(next).map(edge).collect::<Vec<_>>()
+    let place = |[x, y, bulge]: [f64; 3]| {
+        let p = turn * Vec2::new(x, y) + Vec2::from(position);
+        [p.x, p.y, bulge]
     };
-    rings.iter().enumerate().flat_map(of_ring).collect()
+    rings.into_iter().map(|ring| ring.into_iter().map(place).collect()).collect()
 }
 
-/// The shape with these edges.
-fn with_edges(spec: &ShapeSpec, edges: &[Edge]) -> ShapeSpec {
-    let mut rings = edges.chunk_by(|a, b| a.ring == b.ring).map(|ring| {
-        let corners = |edge: &Edge| {
-            edge.points[..edge.points.len() - 1].iter().map(|p| [p.x, p.y, edge.bulge]).collect::<Vec<_>>()
-        };
-        let mut ring: Vec<[f64; 3]> = ring.iter().flat_map(corners).collect();
-        ring.dedup_by(|next, last| next[..2] == last[..2]);
-        ring
-    });
+/// The shape with these rings.
+fn with_rings(spec: &ShapeSpec, rings: Vec<Corners>) -> ShapeSpec {
+    let mut rings = rings.into_iter();
     let (position, rotation_deg) = ([0.0; 2], 0.0);
     let (outer, holes) = (rings.next().unwrap_or_default(), rings.collect::<Vec<_>>());
     if matches!(spec, ShapeSpec::CurvedPolygon(_)) {
         return ShapeSpec::CurvedPolygon(CurvedPolygon { outer, holes, position, rotation_deg });
     }
-    let plain = |ring: Vec<[f64; 3]>| ring.into_iter().map(|[x, y, _]| [x, y]).collect();
-    ShapeSpec::Polygon(Polygon {
-        outer: plain(outer),
-        holes: holes.into_iter().map(plain).collect(),
-        position,
-        rotation_deg,
-    })
+    let plain = |ring: Corners| ring.into_iter().map(|[x, y, _]| [x, y]).collect();
+    let holes = holes.into_iter().map(plain).collect();
+    ShapeSpec::Polygon(Polygon { outer: plain(outer), holes, position, rotation_deg })
 }
 
 #[cfg(test)]
@@ -212,7 +232,7 @@ mod tests {
         let domain = Bounds { min: Vec2::zeros(), max: Vec2::repeat(1.0) };
         for left in [0.5, 0.5 + 1e-5, 0.6] {
             let bar = polygon(&[[left, 0.2], [0.9, 0.2], [0.9, 0.4], [left, 0.4]]);
-            assert_eq!(welded(&[block.clone(), bar.clone()], domain), (vec![block.clone(), bar], 0));
+            assert_eq!(welded(&[block.clone(), bar.clone()], domain), vec![block.clone(), bar]);
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::geometry::import::{overlap, recognize, smooth, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
 use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
-use crate::geometry::weld::welded;
+use crate::geometry::weld::weld;
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
@@ -69,7 +69,8 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
     let sheet = Sheet { frame, has_page, nesting, is_of_pixels };
     let mut refusals = Vec::new();
-    let outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
+    let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
+    joined(&mut outlines, &mut notes.counts);
     let mut remaining = outlines.clone();
     match frame::taken_out(&mut remaining, options, &mut notes) {
         Ok(framed) => completed(remaining, framed, &sheet, options, notes, refusals),
@@ -175,7 +176,6 @@ fn completed(
     let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
     let problems = spec.problems();
     if problems.is_empty() {
-        notes.counts.welded = welded(&spec.shapes, domain).1;
         Ok(Imported { spec, depth: None, notes: notes.lines(options) })
     } else {
         Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &locations)).collect()))
@@ -272,6 +272,23 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
         }
     }
     found
+}
+
+/// Makes nearly coincident corners and edges of different outlines coincide.
+fn joined(entities: &mut [Entity], counts: &mut Counts) {
+    let rings_of = |entity: &Entity| match &entity.outline {
+        Outline::Disc { .. } => Vec::new(),
+        Outline::Area { rings, .. } => rings.iter().map(|ring| ring.vertices.clone()).collect(),
+    };
+    let all: Vec<Vec<Vec<[f64; 3]>>> = entities.iter().map(rings_of).collect();
+    let corners = all.iter().flatten().flatten().map(|&[x, y, _]| Vec2::new(x, y));
+    let (changed, count) = weld(&all, bounds_of_points(corners).size().max());
+    for (index, changed) in changed {
+        if let Outline::Area { rings, .. } = &mut entities[index].outline {
+            *rings = changed.into_iter().map(|vertices| Ring { vertices }).collect();
+        }
+    }
+    counts.welded = count;
 }
 
 /// The regions filled by the outlines: of each entity separately, in painting order, or of all together in formats without fills.
