@@ -48,6 +48,11 @@ impl Samples {
         let along = (0..walls.walls.len()).map(|k| sampled(walls, k, density[k])).collect();
         Self { along }
     }
+
+    /// Number of samples.
+    pub(crate) fn count(&self) -> usize {
+        self.along.iter().map(Vec::len).sum()
+    }
 }
 
 /// Parameters along a piece: equidistant, and denser near other walls.

@@ -39,8 +39,12 @@ impl CriticalPoints {
     /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece, `further` are pairs to look at besides
     /// those that the samples offer.
     pub(crate) fn find(walls: &Walls, density: &[f64], further: &[Pair], coincident: Coincident) -> Self {
-        let samples = Samples::new(walls, density);
-        let (mut pairs, triples) = candidates(walls, &samples);
+        Self::of_samples(walls, &Samples::new(walls, density), further, coincident)
+    }
+
+    /// The same with given samples.
+    pub(crate) fn of_samples(walls: &Walls, samples: &Samples, further: &[Pair], coincident: Coincident) -> Self {
+        let (mut pairs, triples) = candidates(walls, samples);
         pairs.extend(further);
         let between = triples.iter().filter_map(|triple| between_three(walls, triple));
         let (mut maxima, others): (Vec<Maximum>, Vec<Maximum>) = between.partition(|at| is_maximum(walls, at));
@@ -108,21 +112,25 @@ fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
 
 /// The items with distinct centers, sorted by these; of coincident ones the largest.
 fn one_of_each<T>(mut found: Vec<T>, key: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
-    found.sort_by(|a, b| {
+    // Along this direction, the many candidates of a slit along an axis are apart.
+    let along = |thing: &T| key(thing).0.dot(&Vec2::new(0.825_335_614_909_678, 0.564_642_473_395_035));
+    let by_center = |a: &T, b: &T| {
         let (p, q) = (key(a), key(b));
         p.0.x.total_cmp(&q.0.x).then(p.0.y.total_cmp(&q.0.y)).then(p.1.total_cmp(&q.1))
-    });
+    };
+    found.sort_by(|a, b| along(a).total_cmp(&along(b)).then(by_center(a, b)));
     let mut kept: Vec<T> = Vec::new();
     for thing in found {
         let (x, size) = key(&thing);
         let near = SAME_PLACE * size;
-        let mut known = kept.iter_mut().rev().take_while(|other| x.x - key(other).0.x <= near);
+        let mut known = kept.iter_mut().rev().take_while(|other| along(&thing) - along(other) <= near);
         match known.find(|other| (x - key(other).0).norm() <= near) {
             Some(other) if key(other).1 < size => *other = thing,
             Some(_) => {}
             None => kept.push(thing),
         }
     }
+    kept.sort_by(by_center);
     kept
 }
 

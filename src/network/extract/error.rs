@@ -36,7 +36,7 @@ pub enum ExtractError {
     },
     /// Regions and maxima do not correspond one to one.
     #[error(
-        "no network was found that has one pore per region, near {}; shapes there may touch or nearly touch: let them overlap clearly or leave a gap",
+        "no network was found that has one pore per region, near {}; shapes there may touch or nearly touch: let them overlap clearly or leave a gap above 1e-5 of the domain",
         list(.near)
     )]
     NoCertificate {

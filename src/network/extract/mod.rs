@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 use crate::case::SIDES;
 use crate::geometry::Geometry;
 use crate::geometry::critical::CriticalPoints;
-use crate::geometry::critical::candidates::all_pairs;
+use crate::geometry::critical::candidates::{Samples, all_pairs};
 use crate::geometry::critical::clusters::Coincident;
 use crate::geometry::critical::walls::{Sides, Walls};
 use crate::network::extract::loops::Loops;
@@ -32,6 +32,10 @@ use crate::network::graph::Network;
 
 /// Maximum number of times that the sampling is doubled if the certificate fails. A circle then has 24 * 2^8 samples.
 const ROUNDS: usize = 8;
+
+/// Number of samples beyond which they are not doubled, unless there are more than half as many from the beginning: a slit may need as many as it is longer
+/// than wide.
+const MOST_SAMPLES: usize = 4_000_000;
 
 /// From this round on all pairs of the walls around a region are candidates: the triangulation of the samples can lack an edge by rounding, however
 /// dense they are.
@@ -64,10 +68,16 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
 fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Network, ExtractError> {
     let mut density = vec![density; walls.walls.len()];
     let mut further = Vec::new();
-    let mut round = 0;
+    let (mut round, mut most, mut near) = (0, MOST_SAMPLES, Vec::new());
     loop {
+        let samples = Samples::new(walls, &density);
+        if round == 0 {
+            most = MOST_SAMPLES.max(2 * samples.count());
+        } else if samples.count() > most {
+            return Err(ExtractError::NoCertificate { near });
+        }
         let tried = |coincident: Coincident| {
-            let points = CriticalPoints::find(walls, &density, &further, coincident);
+            let points = CriticalPoints::of_samples(walls, &samples, &further, coincident);
             attempt(walls, &points, &Loops::trace(walls, &points.saddles, perimeter))
         };
         let first = tried(Coincident::Clusters);
@@ -75,7 +85,8 @@ fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Netwo
         match if is_certified { first } else { tried(Coincident::Points).or(first) } {
             Attempt::Certified(network) => return Ok(network),
             Attempt::Failed { near, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { near }),
-            Attempt::Failed { images, .. } => {
+            Attempt::Failed { images, near: failed } => {
+                near = failed;
                 let walls_of: BTreeSet<usize> = images.iter().flatten().map(|image| image.0).collect();
                 walls_of.into_iter().for_each(|wall| density[wall] *= 2.0);
                 round += 1;
