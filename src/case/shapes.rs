@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::network::{RawNetworkSide, RawNetworkSides};
 use super::side::{Side, Sides};
 use super::sides::RawSides;
-use crate::geometry::import::{Beyond, Frame, Options, options};
+use crate::geometry::import::{Beyond, Frame, Nested, Options, options};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::input::tables::{Key, join, tables};
 use crate::input::{Checker, Problem};
@@ -59,6 +59,8 @@ tables! {
         pub diameters: bool,
         /// Whether the outline without fill around all others is the frame of the chip, with pore inside, or the rim of a solid plate (default: by layers and nesting).
         pub frame: Frame,
+        /// Whether shapes of another color on larger ones, and outlines in others (on layers named as KLayout names those of GDS), are pore or solid; required there.
+        pub nested: Nested,
         /// Lower left corner of the domain in m (default: that of the file).
         pub min: [f64; 2],
         /// Upper right corner of the domain in m (default: that of the file).
@@ -168,6 +170,7 @@ pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
         ("separator", raw.separator.is_some()),
         ("diameters", raw.diameters.is_some()),
         ("frame", raw.frame.is_some()),
+        ("nested", raw.nested.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         let message = format!("`{key}` controls how a file is read, and no `file` is given");
@@ -196,6 +199,7 @@ pub(super) fn options(raw: &RawGeometry) -> Options {
         separator: raw.separator,
         diameters: raw.diameters,
         frame: raw.frame,
+        nested: raw.nested,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::geometry::import::{Frame, Options};
+use crate::geometry::import::{Frame, Nested, Options};
 
 /// How a drawing is read: the keys of `[geometry]` besides `file`.
 #[derive(Debug, Clone, Default, Args)]
@@ -50,6 +50,9 @@ pub(crate) struct ImportArguments {
     /// The outline without fill around all others: a frame with the pore inside, or the rim of a solid plate
     #[arg(long, value_name = "pore|solid", value_parser = frame)]
     pub(crate) frame: Option<Frame>,
+    /// Shapes of another color on larger ones, or outlines in others on layers of GDS
+    #[arg(long, value_name = "pore|solid", value_parser = nested)]
+    pub(crate) nested: Option<Nested>,
 }
 
 impl ImportArguments {
@@ -70,13 +73,25 @@ impl ImportArguments {
             separator: self.separator,
             diameters: self.diameters.then_some(true),
             frame: self.frame,
+            nested: self.nested,
         }
     }
 }
 
 fn frame(text: &str) -> Result<Frame, String> {
-    let all = [Frame::Pore, Frame::Solid];
-    all.into_iter().find(|frame| frame.name() == text).ok_or_else(|| "expected pore or solid".to_owned())
+    match text {
+        "pore" => Ok(Frame::Pore),
+        "solid" => Ok(Frame::Solid),
+        _ => Err("expected pore or solid".to_owned()),
+    }
+}
+
+fn nested(text: &str) -> Result<Nested, String> {
+    match text {
+        "pore" => Ok(Nested::Pore),
+        "solid" => Ok(Nested::Solid),
+        _ => Err("expected pore or solid".to_owned()),
+    }
 }
 
 /// `N` numbers separated by commas.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use meniscus::geometry::import::{Frame, Imported, Options};
+use meniscus::geometry::import::{Frame, Imported, Nested, Options};
 use meniscus::geometry::load;
 use meniscus::geometry::spec::ShapeSpec;
 
@@ -177,6 +177,34 @@ fn a_chamber_in_a_wafer_is_the_pore_and_posts_may_cross_its_wall() {
     let cut = porosity(&read("lab-chip-cut-lattice.dxf", &Options::default()).spec);
     // By the union of shapely with 1024 and 4096 points on each circle, extrapolated.
     assert!((cut - 0.594_451_391_6).abs() < 1e-9, "{cut}");
+}
+
+#[test]
+fn what_lies_in_shapes_of_another_color_or_in_outlines_of_gds_is_asked() {
+    let gds = Options { layers: Some(vec!["L1D0".into()]), window: Some([[0.0; 2], [1e-4, 4e-5]]), ..unit("um") };
+    // KLayout has 3200 um2 of the merged layer of 4000. A plate of 18 by 6, a channel of 16 by 1 and a circle of radius .9 on its axis, in 240.
+    let (radius, half): (f64, f64) = (0.9, 0.5);
+    let beyond = PI * radius * radius
+        - 2.0 * (half * (radius * radius - half * half).sqrt() + radius * radius * (half / radius).asin());
+    let channels = 1.0 - (108.0 - 16.0 - beyond) / 240.0;
+    for (name, options, pore, solid) in
+        [("nested-gds.dxf", gds, 0.3, 0.2), ("plate.svg", Options::default(), channels, 0.55)]
+    {
+        let error = load(&file(&format!("kinds/{name}")), &options).unwrap_err().to_string();
+        assert!(error.contains("two ways"), "{name}: {error}");
+        for (nested, right) in [(Nested::Pore, pore), (Nested::Solid, solid)] {
+            let found = porosity(&read(name, &Options { nested: Some(nested), ..options.clone() }).spec);
+            println!("{name:24} {nested:?} {found:.6} {right:.6}");
+            assert!((found - right).abs() < 1e-9, "{name} {nested:?}: {found} {right}");
+        }
+    }
+}
+
+#[test]
+fn outlines_that_overlap_by_a_rounding_error_are_those_that_abut() {
+    let found = ["a", "a-over", "b-over", "c-over", "d-over"]
+        .map(|name| porosity(&read(&format!("abutting-{name}.dxf"), &Options::default()).spec));
+    assert!(found.iter().all(|porosity| (porosity - found[0]).abs() < 1e-7), "{found:?}");
 }
 
 #[test]

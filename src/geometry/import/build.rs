@@ -2,13 +2,13 @@
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Refusal, Ring, shape_of};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal, Ring, shape_of};
 use crate::geometry::import::fill::{filled, without_slits};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::frame::{self, Ambiguous, Framed};
-use crate::geometry::import::nest::{Nested, Region, circle, nested, regions};
+use crate::geometry::import::nest::{self, Region, circle, containing, nested, regions};
 use crate::geometry::import::notes::{Counts, Notes};
-use crate::geometry::import::options::{Frame, Options};
+use crate::geometry::import::options::{Frame, Nested, Options};
 use crate::geometry::import::paint::{Painted, solids};
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
 use crate::geometry::import::{overlap, recognize, smooth, window};
@@ -59,6 +59,7 @@ struct Sheet {
     has_page: bool,
     nesting: Nesting,
     is_of_pixels: bool,
+    is_of_gds: bool,
 }
 
 /// The shapes of a drawing in m.
@@ -67,40 +68,105 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let mut notes = Notes::new(unit, &drawing);
     let Drawing { has_page, nesting, is_of_pixels, .. } = drawing;
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
-    let sheet = Sheet { frame, has_page, nesting, is_of_pixels };
+    let is_of_gds = nesting == Nesting::OfAll && !drawing.layers.is_empty() && drawing.layers.keys().all(is_gds_layer);
+    let sheet = Sheet { frame, has_page, nesting, is_of_pixels, is_of_gds };
     let mut refusals = Vec::new();
     let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
     joined(&mut outlines, &mut notes.counts);
-    let mut remaining = outlines.clone();
-    match frame::taken_out(&mut remaining, options, &mut notes) {
-        Ok(framed) => completed(remaining, framed, &sheet, options, notes, refusals),
-        Err(Ambiguous(what)) => Err(Refused::Keys(vec![question(&what, &outlines, &sheet, options, &notes)])),
+    decided(outlines, &sheet, options, notes, refusals)
+}
+
+/// Whether a layer has the name that KLayout gives those of GDS: `L1D0`, layer and datatype.
+fn is_gds_layer(name: &String) -> bool {
+    let numbers = name.strip_prefix('L').and_then(|rest| rest.split_once('D'));
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    numbers.is_some_and(|(layer, datatype)| is_number(layer) && is_number(datatype))
+}
+
+/// The shapes of the outlines as the drawing says, or the options where it leaves that open.
+fn decided(
+    mut outlines: Vec<Entity>,
+    sheet: &Sheet,
+    options: &Options,
+    mut notes: Notes,
+    refusals: Vec<Refusal>,
+) -> Result<Imported, Refused> {
+    let all = outlines.clone();
+    let ask = |what: &str, key: &str, choices: [Choice<'_>; 2], notes: &Notes| {
+        Err(Refused::Keys(vec![question(what, key, choices, (&all, sheet, notes))]))
+    };
+    let overlaid = outlines.iter().filter(|one| one.paint == Paint::Overlaid).count();
+    if overlaid > 0 || (sheet.is_of_gds && has_nested(&outlines)) {
+        let Some(nested) = options.nested else {
+            let with = |nested| Options { nested: Some(nested), ..options.clone() };
+            let what = match overlaid {
+                0 => "outlines lie in others, on layers named as those of GDS".to_owned(),
+                number => format!("shapes ({number}) are painted on larger ones of another color"),
+            };
+            let choices = [
+                ("pore", with(Nested::Pore), "they are channels or holes"),
+                ("solid", with(Nested::Solid), "they are solid, united with the larger ones"),
+            ];
+            return ask(&what, "nested", choices, &notes);
+        };
+        let paint = if nested == Nested::Pore { Paint::White } else { Paint::Filled };
+        outlines.iter_mut().filter(|one| one.paint == Paint::Overlaid).for_each(|one| one.paint = paint.clone());
+    }
+    if sheet.nesting == Nesting::OfAll && options.nested == Some(Nested::Solid) {
+        return completed(outlines, Framed::default(), Nesting::Alternate, sheet, options, notes, refusals);
+    }
+    match frame::taken_out(&mut outlines, options, &mut notes) {
+        Ok(framed) => {
+            let nesting = if framed.is_plate { Nesting::OfAll } else { sheet.nesting };
+            completed(outlines, framed, nesting, sheet, options, notes, refusals)
+        }
+        Err(Ambiguous(what)) => {
+            let with = |frame| Options { frame: Some(frame), ..options.clone() };
+            let choices = [
+                (
+                    "pore",
+                    with(Frame::Pore),
+                    "it is the frame of the chip or the wall of the pore, and the others are grains",
+                ),
+                ("solid", with(Frame::Solid), "it is the rim of a plate, and the others are holes"),
+            ];
+            ask(&what, "frame", choices, &notes)
+        }
     }
 }
 
+/// Whether an outline lies in another one.
+fn has_nested(outlines: &[Entity]) -> bool {
+    let rings: Vec<Ring> = outlines.iter().map(|one| frame::first_ring(&one.outline)).collect();
+    containing(&rings).iter().any(|around| !around.is_empty())
+}
+
+/// A value of a key, the options with it, and the reading that it means.
+type Choice<'a> = (&'a str, Options, &'a str);
+
 /// The question which of two readings is meant, with both.
-fn question(what: &str, outlines: &[Entity], sheet: &Sheet, options: &Options, notes: &Notes) -> Problem {
+fn question(
+    what: &str,
+    key: &str,
+    choices: [Choice<'_>; 2],
+    (all, sheet, notes): (&[Entity], &Sheet, &Notes),
+) -> Problem {
     let mut message = format!("the drawing can be read in two ways: {what}");
-    for (frame, text) in [
-        (Frame::Pore, "it is the frame of the chip or the wall of the pore, and the others are grains"),
-        (Frame::Solid, "it is the rim of a plate, and the others are holes"),
-    ] {
-        let (mut remaining, mut notes) = (outlines.to_vec(), notes.clone());
-        let options = Options { frame: Some(frame), ..options.clone() };
-        let read = frame::taken_out(&mut remaining, &options, &mut notes)
-            .ok()
-            .and_then(|framed| completed(remaining, framed, sheet, &options, notes, Vec::new()).ok());
-        message += &format!("\n\nframe = \"{}\": {text}", frame.name());
-        match read {
-            Some(Imported { spec, .. }) => {
+    let values = [choices[0].0, choices[1].0];
+    for (value, options, text) in choices {
+        message += &format!("\n\n{key} = \"{value}\": {text}");
+        match decided(all.to_vec(), sheet, &options, notes.clone(), Vec::new()) {
+            Ok(Imported { spec, .. }) => {
                 let geometry = Geometry::unchecked(&spec);
                 let (porosity, solids) = (geometry.porosity().value, spec.shapes.len());
                 message += &format!("; porosity {porosity:.4}, {solids} solids\n{}", sketch(&geometry));
             }
-            None => message += "; it cannot be read so",
+            Err(Refused::Keys(_)) => message += "; another question follows",
+            Err(_) => message += "; it cannot be read so",
         }
     }
-    Problem::new("frame", message, "add `frame = \"pore\"` (--frame pore), or `frame = \"solid\"` (--frame solid)")
+    let [one, other] = values.map(|value| format!("`{key} = \"{value}\"` (--{key} {value})"));
+    Problem::new(key, message, format!("add {one}, or {other}"))
 }
 
 /// A geometry in characters, solid as `#`.
@@ -125,7 +191,8 @@ fn sketch(geometry: &Geometry) -> String {
 /// The shapes of the outlines without the frame.
 fn completed(
     outlines: Vec<Entity>,
-    Framed { domain: framed, chamber, is_plate }: Framed,
+    Framed { domain: framed, chamber, .. }: Framed,
+    nesting: Nesting,
     sheet: &Sheet,
     options: &Options,
     mut notes: Notes,
@@ -133,7 +200,6 @@ fn completed(
 ) -> Result<Imported, Refused> {
     let frame = sheet.frame.or(framed);
     let mut shapes = Vec::new();
-    let nesting = if is_plate { Nesting::OfAll } else { sheet.nesting };
     let mut regions = grouped(outlines, nesting, &mut notes, &mut refusals);
     if let Some((ring, location)) = chamber {
         let (domain, _) = domain(ring.bounds(), frame, options);
@@ -368,7 +434,7 @@ fn nested_entities(entities: Vec<Entity>, notes: &mut Notes, refusals: &mut Vec<
     }
     let (rings, locations): (Vec<Ring>, Vec<String>) = overlap::resolved(all, notes, refusals).into_iter().unzip();
     let all = nested(&rings, FillRule::EvenOdd);
-    let region = |nested: Nested| {
+    let region = |nested: nest::Nested| {
         let holes = nested.holes.iter().map(|&i| rings[i].clone()).collect();
         ((rings[nested.outer].clone(), holes), locations[nested.outer].clone())
     };

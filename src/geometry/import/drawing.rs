@@ -48,6 +48,8 @@ pub enum Paint {
     /// Any color except white: solid.
     #[default]
     Filled,
+    /// A color on a larger shape of another color: solid, or a channel in a chip.
+    Overlaid,
     /// White, in a drawing with other colors: pore where it covers others.
     White,
     /// None: a closed outline.
@@ -66,6 +68,19 @@ pub struct Entity {
     pub paint: Paint,
     /// Its source location for messages: `line 12`, `LWPOLYLINE 2F`, `feature 3`.
     pub location: String,
+}
+
+impl Entity {
+    /// The box around it.
+    pub(crate) fn bounds(&self) -> Bounds {
+        match &self.outline {
+            Outline::Disc { center, radius } => Bounds { min: *center, max: *center }.grown(*radius),
+            Outline::Area { rings, .. } => {
+                let all = rings.iter().map(Ring::bounds).reduce(|a, b| a.united(&b));
+                all.unwrap_or(Bounds { min: Vec2::zeros(), max: Vec2::zeros() })
+            }
+        }
+    }
 }
 
 /// A unit of length.

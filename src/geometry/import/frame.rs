@@ -47,7 +47,7 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, options: &Options, notes: &m
         is_named && is_rectangle(&one.outline)
     };
     if let Some(domain) = outlines.iter().position(is_domain) {
-        let domain = bounds(&outlines.remove(domain));
+        let domain = outlines.remove(domain).bounds();
         return Ok(Framed { domain: Some(domain), ..Framed::default() });
     }
     let Some(found) = Around::of(outlines) else { return Ok(Framed::default()) };
@@ -70,7 +70,7 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, options: &Options, notes: &m
     let mut index = 0;
     let before = outlines.len();
     outlines.retain(|one| {
-        let is_kept = !found.chain.contains(&index) && (!is_wall || overlaps(&bounds(one), &domain));
+        let is_kept = !found.chain.contains(&index) && (!is_wall || overlaps(&one.bounds(), &domain));
         index += 1;
         is_kept
     });
@@ -170,20 +170,10 @@ fn is_named(paint: &Paint) -> bool {
 }
 
 /// The first ring of an outline; a disc as two half circles.
-fn first_ring(outline: &Outline) -> Ring {
+pub(crate) fn first_ring(outline: &Outline) -> Ring {
     match outline {
         Outline::Disc { center, radius } => circle(*center, *radius),
         Outline::Area { rings, .. } => rings.first().cloned().unwrap_or_default(),
-    }
-}
-
-fn bounds(entity: &Entity) -> Bounds {
-    match &entity.outline {
-        Outline::Disc { center, radius } => Bounds { min: *center, max: *center }.grown(*radius),
-        Outline::Area { rings, .. } => {
-            let all = rings.iter().map(Ring::bounds).reduce(|a, b| a.united(&b));
-            all.unwrap_or(Bounds { min: Vec2::zeros(), max: Vec2::zeros() })
-        }
     }
 }
 

@@ -42,4 +42,4 @@ pub use build::Imported;
 pub(crate) use build::windowed;
 pub(crate) use cut::{Beyond, cut_at_sides};
 pub(crate) use format::Format;
-pub use options::{Frame, Options};
+pub use options::{Frame, Nested, Options};

@@ -37,14 +37,17 @@ pub enum Frame {
 
 impl Value for Frame {}
 
-impl Frame {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Pore => "pore",
-            Self::Solid => "solid",
-        }
-    }
+/// What shapes in or on larger ones are, where a drawing leaves it open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Nested {
+    /// Channels or holes.
+    Pore,
+    /// Solid, united with the larger ones.
+    Solid,
 }
+
+impl Value for Nested {}
 
 /// Keys of `[geometry]` besides `file`, and options of the command line.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -78,6 +81,8 @@ pub struct Options {
     pub diameters: Option<bool>,
     /// What the outline around all others is, where a drawing leaves it open.
     pub frame: Option<Frame>,
+    /// What shapes of another color on larger ones are, and outlines in others on layers of GDS.
+    pub nested: Option<Nested>,
 }
 
 impl Options {
@@ -143,6 +148,7 @@ impl Options {
         misplaced("diameters", self.diameters.is_some(), &[Format::List], "lists of discs");
         misplaced("separator", self.separator.is_some(), &[Format::List], "lists of discs");
         misplaced("frame", self.frame.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
+        misplaced("nested", self.nested.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
         let drawn = [Format::Wkt, Format::GeoJson, Format::Shapefile, Format::Svg, Format::Dxf, Format::Mask];
         misplaced("recognize-circles", self.recognize_circles.is_some(), &drawn, "drawings with polygons");
         misplaced("smooth-below-deg", self.smooth_below_deg.is_some(), &drawn, "drawings with polygons");

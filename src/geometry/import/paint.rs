@@ -1,7 +1,7 @@
 //! Shapes in painting order: white ones, and unfilled outlines on larger filled shapes, are pore where they cover those below.
 
 use crate::geometry::import::combine::{Solid, area};
-use crate::geometry::import::drawing::{Paint, Refusal};
+use crate::geometry::import::drawing::{Entity, Paint, Refusal};
 use crate::geometry::import::fill::without_slits;
 use crate::geometry::import::nest::Region;
 use crate::geometry::import::notes::Notes;
@@ -33,6 +33,19 @@ pub(crate) fn solids(mut all: Vec<Painted>, notes: &mut Notes, refusals: &mut Ve
     each.flat_map(|one| one.regions.into_iter().map(move |region| (region, one.location.clone()))).collect()
 }
 
+/// Marks filled shapes that lie in larger ones of another color, painted before them. `colors` has the fill of each.
+pub(crate) fn mark_overlaid<C: PartialEq>(entities: &mut [Entity], colors: &[C]) {
+    let boxes: Vec<Bounds> = entities.iter().map(Entity::bounds).collect();
+    let tree = Tree::over(boxes.iter().copied());
+    let is_filled = |one: &Entity| one.paint == Paint::Filled;
+    let lies_in = |k: usize| {
+        let mut near = tree.near(boxes[k]);
+        near.any(|i| i < k && is_filled(&entities[i]) && colors[i] != colors[k] && is_in(&boxes[i], &boxes[k]))
+    };
+    let marked: Vec<usize> = (0..entities.len()).filter(|&k| is_filled(&entities[k]) && lies_in(k)).collect();
+    marked.into_iter().for_each(|k| entities[k].paint = Paint::Overlaid);
+}
+
 fn bounds(one: &Painted) -> Bounds {
     let all = one.regions.iter().map(|(outer, _)| outer.bounds()).reduce(|a, b| a.united(&b));
     all.unwrap_or(Bounds { min: Default::default(), max: Default::default() })
@@ -49,7 +62,7 @@ fn cut(all: &mut [Painted], notes: &mut Notes, refusals: &mut Vec<Refusal>) {
     let (mut white, mut holes, mut frames, mut shapes) = (0, 0, 0, 0);
     for k in 0..all.len() {
         let is_white = match all[k].paint {
-            Paint::Filled => continue,
+            Paint::Filled | Paint::Overlaid => continue,
             Paint::White => true,
             Paint::Unfilled { .. } => false,
         };

@@ -14,6 +14,7 @@ use roxmltree::{Document, Node};
 use svgtypes::{Color, Paint};
 
 use crate::geometry::import::drawing::FillRule;
+use crate::math::{FNV1A_BASIS, fnv1a};
 
 /// The relevant properties, also as attributes.
 const PROPERTIES: [&str; 17] = [
@@ -55,8 +56,8 @@ pub(crate) enum Fill {
     None,
     /// White.
     White,
-    /// Any other color, a gradient or a pattern.
-    Other,
+    /// Any other color, as red, green and blue, or a number for a gradient or a pattern.
+    Color(u32),
 }
 
 /// The style of an element, including inherited properties.
@@ -86,12 +87,12 @@ impl Default for Style {
         Self {
             is_removed: false,
             is_visible: true,
-            fill: Fill::Other,
+            fill: Fill::Color(0),
             rule: FillRule::NonZero,
             has_stroke: false,
             is_clipped: false,
-            color: Fill::Other,
-            paint: [Fill::Other, Fill::None],
+            color: Fill::Color(0),
+            paint: [Fill::Color(0), Fill::None],
             opacity: [1.0; 2],
             stroke_width: 1.0,
         }
@@ -153,7 +154,10 @@ fn paint(value: &str, current: Fill, sheet: &StyleSheet) -> Fill {
         Ok(Paint::Color(Color { alpha: 0, .. })) => Fill::None,
         Ok(Paint::Color(Color { red, green, blue, .. })) if red.min(green).min(blue) >= WHITE => Fill::White,
         Ok(Paint::FuncIRI(id, _)) if sheet.white_gradients.contains(id) => Fill::White,
-        _ => Fill::Other,
+        Ok(Paint::Color(Color { red, green, blue, .. })) => Fill::Color(u32::from_be_bytes([0, red, green, blue])),
+        // What is no color is black, as programs that draw pages have it.
+        Err(_) => Fill::Color(0),
+        _ => Fill::Color(fnv1a(FNV1A_BASIS, value.bytes()) as u32 | 0xff00_0000),
     }
 }
 
@@ -203,10 +207,10 @@ impl StyleSheet {
         let gradients: BTreeMap<&str, Node> =
             document.descendants().filter(is_gradient).filter_map(|node| Some((node.attribute("id")?, node))).collect();
         let is_white = |stop: Node| {
-            let mut fill = Fill::Other;
+            let mut fill = Fill::None;
             self.for_each(stop, |_, name, value| {
                 if name == "stop-color" {
-                    fill = paint(value, Fill::Other, self);
+                    fill = paint(value, Fill::None, self);
                 }
             });
             fill == Fill::White

@@ -10,10 +10,11 @@ use super::lines::Lines;
 use super::page::{self, Along, Page, Viewport};
 use super::placement;
 use super::shape;
-use super::style::{self, Style, StyleSheet};
+use super::style::{self, Fill, Style, StyleSheet};
 use crate::geometry::import::affine::Affine;
 use crate::geometry::import::drawing::{Drawing, Nesting, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
+use crate::geometry::import::paint::mark_overlaid;
 use crate::math::Vec2;
 
 /// Maximum nesting depth of elements, including copies; drawing programs stay below twenty.
@@ -79,6 +80,7 @@ pub(crate) fn drawing(
             nesting: Nesting::ByRule,
             ..Drawing::default()
         },
+        colors: Vec::new(),
         tally: Tally::default(),
         refusals: Vec::new(),
         is_over: false,
@@ -137,6 +139,8 @@ struct Walk<'a, 'input> {
     /// The elements being copied, to detect recursive copies.
     copying: Vec<Node<'a, 'input>>,
     drawing: Drawing,
+    /// The fill of each entity of the drawing.
+    colors: Vec<Fill>,
     tally: Tally,
     refusals: Vec<Refusal>,
     /// Whether reading has stopped.
@@ -336,6 +340,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         if is_white {
             drawing.entities.iter_mut().for_each(|one| one.paint = Paint::Filled);
         }
+        mark_overlaid(&mut drawing.entities, &self.colors);
         let Tally { strokes, clipped, not_closed } = self.tally;
         let counts = [
             (outlines, "closed outlines without fill are taken for shapes"),

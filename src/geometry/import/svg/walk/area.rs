@@ -79,8 +79,9 @@ impl<'a, 'input> Walk<'a, 'input> {
         let paint = match style.fill {
             Fill::None => Paint::Unfilled { layer: context.layer.unwrap_or_default().to_owned() },
             Fill::White => Paint::White,
-            Fill::Other => Paint::Filled,
+            Fill::Color(_) => Paint::Filled,
         };
+        self.colors.push(style.fill);
         self.drawing.entities.push(Entity { outline, paint, location: self.lines.location(node) });
     }
 }
