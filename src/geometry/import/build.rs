@@ -68,7 +68,8 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let mut notes = Notes::new(unit, &drawing);
     let Drawing { has_page, nesting, is_of_pixels, .. } = drawing;
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
-    let is_of_gds = nesting == Nesting::OfAll && !drawing.layers.is_empty() && drawing.layers.keys().all(is_gds_layer);
+    let is_of_gds =
+        nesting == Nesting::OfAll && !drawing.layers.is_empty() && drawing.layers.keys().all(|name| is_gds_layer(name));
     let sheet = Sheet { frame, has_page, nesting, is_of_pixels, is_of_gds };
     let mut refusals = Vec::new();
     let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
@@ -77,7 +78,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
 }
 
 /// Whether a layer has the name that KLayout gives those of GDS: `L1D0`, layer and datatype.
-fn is_gds_layer(name: &String) -> bool {
+fn is_gds_layer(name: &str) -> bool {
     let numbers = name.strip_prefix('L').and_then(|rest| rest.split_once('D'));
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     numbers.is_some_and(|(layer, datatype)| is_number(layer) && is_number(datatype))
