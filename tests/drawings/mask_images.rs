@@ -20,8 +20,11 @@ const ROUNDING: f64 = 1e-8;
 /// Left, right, bottom and top.
 const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
+/// An image of a mask.
+type Moved = fn(&GrayImage) -> GrayImage;
+
 /// The images of an upright mask: what is done to its pixels, and where its left and right sides lie then.
-const IMAGES: [(fn(&GrayImage) -> GrayImage, [usize; 2]); 7] = [
+const IMAGES: [(Moved, [usize; 2]); 7] = [
     (imageops::flip_horizontal, [1, 0]),
     (imageops::flip_vertical, [0, 1]),
     (imageops::rotate180, [1, 0]),
@@ -50,9 +53,9 @@ fn mask(number: u64) -> GrayImage {
     let waves: Vec<[f64; 4]> = (0..40).map(|_| [0.0; 4].map(|_| random())).collect();
     let reach = 0.25 + 0.5 * random();
     let level = 0.1 + 0.2 * random();
-    let is_gray = number % 2 == 0;
-    let has_discs = number % 3 == 0;
-    let is_symmetric = number % 5 == 0;
+    let is_gray = number.is_multiple_of(2);
+    let has_discs = number.is_multiple_of(3);
+    let is_symmetric = number.is_multiple_of(5);
     let value = |x: f64, y: f64| {
         if has_discs {
             let depth = |w: &[f64; 4]| {
