@@ -9,8 +9,8 @@ use crate::io::FileError;
 pub enum FolderError {
     /// There are files in it.
     #[error(
-        "the output folder {} is not empty; choose another one with --out DIR, continue its run with --resume, or \
-         delete it", .0.display()
+        "the output folder {} is not empty; choose another one with --out DIR, or delete it; `run`, `compare` and `study run` \
+         continue what is in it with --resume", .0.display()
     )]
     NotEmpty(PathBuf),
     /// There is no saved state in it.

@@ -11,3 +11,4 @@ mod kinds_of_networks;
 mod mask_images;
 mod network;
 mod survival;
+mod unions;

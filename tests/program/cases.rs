@@ -210,6 +210,18 @@ fn a_folder_that_was_named_and_is_in_use_is_refused_with_ways_out() {
 }
 
 #[test]
+fn a_drawing_in_place_of_a_case_is_refused_with_the_commands_that_read_it() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("chip.svg"), "<svg xmlns='http://www.w3.org/2000/svg'/>").unwrap();
+    for command in ["run", "check"] {
+        let output = meniscus(folder.path(), &[command, "chip.svg"]);
+        assert_code(&output, 3);
+        let lines = stderr(&output);
+        assert!(lines.contains("meniscus network chip.svg") && lines.lines().count() < 6, "{lines}");
+    }
+}
+
+#[test]
 fn without_a_named_folder_each_run_has_a_new_one_and_resume_takes_the_last() {
     let folder = folder_with_small_case();
     let arguments = ["run", "drop.toml", "--set=time.end=1e-5"];

@@ -73,7 +73,9 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let sheet = Sheet { frame, has_page, nesting, is_of_pixels, is_of_gds };
     let mut refusals = Vec::new();
     let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
-    joined(&mut outlines, &mut notes.counts);
+    let around = outlines.iter().map(Entity::bounds).reduce(|a, b| a.united(&b));
+    let size = around.map_or(0.0, |around| domain(around, frame, options).0.size().max());
+    joined(&mut outlines, size, &mut notes.counts);
     decided(outlines, &sheet, options, notes, refusals)
 }
 
@@ -341,15 +343,14 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     found
 }
 
-/// Makes nearly coincident corners and edges of different outlines coincide.
-fn joined(entities: &mut [Entity], counts: &mut Counts) {
+/// Makes nearly coincident corners and edges of different outlines coincide; `size` is that of the domain in m.
+fn joined(entities: &mut [Entity], size: f64, counts: &mut Counts) {
     let rings_of = |entity: &Entity| match &entity.outline {
         Outline::Disc { .. } => Vec::new(),
         Outline::Area { rings, .. } => rings.iter().map(|ring| ring.vertices.clone()).collect(),
     };
     let all: Vec<Vec<Vec<[f64; 3]>>> = entities.iter().map(rings_of).collect();
-    let corners = all.iter().flatten().flatten().map(|&[x, y, _]| Vec2::new(x, y));
-    let (changed, count) = weld(&all, bounds_of_points(corners).size().max());
+    let (changed, count) = weld(&all, size);
     for (index, changed) in changed {
         if let Outline::Area { rings, .. } = &mut entities[index].outline {
             *rings = changed.into_iter().map(|vertices| Ring { vertices }).collect();
