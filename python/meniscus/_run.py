@@ -83,6 +83,8 @@ def network(
     columns: Sequence[int] | None = None,
     separator: str | None = None,
     diameters: bool | None = None,
+    frame: str | None = None,
+    nested: str | None = None,
     out: Path | None = None,
     progress: Any = None,
     threads: int | None = None,
@@ -115,6 +117,8 @@ def network(
         columns: columns of x, y and radius in a list of discs, from 0.
         separator: the character between the columns of a list of discs.
         diameters: whether the third column of a list of discs holds diameters.
+        frame: the inside of the outline without fill around all others, ``pore`` or ``solid``, where the drawing leaves it open.
+        nested: what shapes of another color on larger ones, or outlines in others on layers of GDS, are: ``pore`` or ``solid``.
         out: as in `run`.
         progress: as in `run`.
         threads: as in `run`.
@@ -142,6 +146,8 @@ def network(
         "columns": columns,
         "separator": separator,
         "diameters": diameters,
+        "frame": frame,
+        "nested": nested,
     }
     axes = {None: None, "x": [True, False], "y": [False, True], "xy": [True, True]}
     if periodic not in axes:
