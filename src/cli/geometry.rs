@@ -11,7 +11,7 @@ use super::write_shapes::{formats, write_shapes};
 use crate::io::picture::{PORE, picture};
 use crate::io::{atomic, vtk};
 use crate::math::Vec2;
-use crate::run::description::slip_of_size;
+use crate::run::slips::slip_of_size;
 use crate::snapshot::{Cloud, Field, Snapshot, Values};
 
 /// Stages of loading and measuring, and those of writing.

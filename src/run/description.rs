@@ -1,6 +1,7 @@
 //! A case as text, and unusual numbers in it that may be slips: both for a reader before a run.
 
 use super::numbers::{Length, numbers};
+use super::slips::rounded;
 use crate::case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
 use crate::input::tables::Words;
 use crate::math::Vec2;
@@ -40,7 +41,7 @@ pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
         .collect()
 }
 
-/// Numbers that are valid but rarely intended, each with what may have been intended, besides [`slips`] of units.
+/// Numbers that are valid but rarely intended, each with what may have been intended, besides [slips](super::slips) of units.
 pub(crate) fn doubts(case: &Case) -> Vec<String> {
     /// Above this Bond number, an interface is flat all over the domain.
     const FLAT: f64 = 1e3;
@@ -50,45 +51,6 @@ pub(crate) fn doubts(case: &Case) -> Vec<String> {
         .filter(|bond| bond.value > FLAT)
         .map(|bond| format!("Bo is {}: gravity flattens all interfaces; are lengths in m?", rounded(bond.value)));
     flat.into_iter().chain(never_at_rest(sph)).chain(ends_early(case, sph)).collect()
-}
-
-/// Numbers of which another unit is likely, each with the unit that is meant.
-pub(crate) fn slips(case: &Case) -> Vec<String> {
-    /// No liquid but a molten metal has more, in N/m.
-    const STRONGEST: f64 = 1.0;
-    /// In degrees: a right angle, and more, in radians.
-    const SHARPEST: f64 = 3.2;
-    let (tension, range) = match &case.model {
-        Model::Sph(sph) => (sph.tension, sph.wetting_model.map(|law| law.hysteresis_range())),
-        Model::Network(network) => {
-            network.interface.as_ref().map_or((0.0, None), |it| (it.tension, Some(it.wetting_model.hysteresis_range())))
-        }
-        Model::ThinFilm(_) => return Vec::new(),
-    };
-    let mut slips = Vec::new();
-    if tension > 0.0 {
-        slips.extend(slip_of_size(Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min)));
-    }
-    if tension > STRONGEST {
-        slips.push(format!("the tension is {} N/m: water has 0.0728 against air, 72.8 mN/m", rounded(tension)));
-    }
-    let [least, most] = range.map_or([90.0; 2], |range| range.map(f64::to_degrees));
-    if least > 0.0 && most < SHARPEST {
-        slips.push(format!("the contact angle is {} degrees: angles are in degrees, not in radians", rounded(most)));
-    }
-    slips
-}
-
-/// The slip of a domain of this size in m.
-pub(crate) fn slip_of_size(size: Vec2) -> Option<String> {
-    /// Pores are smaller, in m.
-    const LARGEST: f64 = 1.0;
-    (size.max() > LARGEST).then(|| {
-        format!(
-            "the domain is {} m long: lengths are in m, also those of a window; a drawing in mm has the unit mm, a pixel its size in m",
-            rounded(size.max())
-        )
-    })
 }
 
 /// A weight along an unbounded wall, and a contact line that is not pinned.
@@ -139,16 +101,12 @@ fn in_order(sides: &Sides) -> String {
     named.collect::<Vec<_>>().join(", ")
 }
 
-/// A number with at most four digits and no trailing zeros.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::case::load_default;
     use crate::input::Overrides;
+    use crate::run::slips::slips;
 
     fn case(overrides: &[&str]) -> Case {
         load_default(&Overrides::parse(overrides).unwrap()).unwrap().case

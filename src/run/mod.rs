@@ -29,6 +29,7 @@ pub(crate) mod schedule;
 pub mod setup;
 pub mod simulation;
 pub(crate) mod sink;
+pub(crate) mod slips;
 pub mod source;
 pub(crate) mod steady;
 pub(crate) mod trial;

@@ -1,7 +1,7 @@
 //! From a checked case to its solver: the only module that depends on both.
 
-use super::description::slips;
 use super::memory::{self, InsufficientMemory};
+use super::slips::slips;
 use crate::case::{Case, Facts, Model, Side, Sph, check_against};
 use crate::diagram::{Frame, Through};
 use crate::geometry::Geometry;

@@ -26,7 +26,7 @@ fn drawing(number: u64) -> Vec<Ring> {
     };
     let digits = 10.0_f64.powi(4 + (number % 5) as i32);
     let (sin, cos) = (6.3 * random()).sin_cos();
-    let mut place = |along: [f64; 2], up: [f64; 2]| -> Ring {
+    let place = |along: [f64; 2], up: [f64; 2]| -> Ring {
         let corners = [[along[0], up[0]], [along[1], up[0]], [along[1], up[1]], [along[0], up[1]]];
         let rounded = |x: f64| (x * digits).round() / digits;
         corners.map(|[x, y]| [rounded(15.0 + cos * x - sin * y), rounded(15.0 + sin * x + cos * y)]).to_vec()
