@@ -99,17 +99,23 @@ pub fn factor_in_one_thread() {
 
 /// The largest number of three digits that is not above a positive one, for messages that name a sufficient value.
 pub(crate) fn rounded_down(value: f64) -> f64 {
-    let unit = 10.0_f64.powi(value.log10().floor() as i32 - 2);
-    // A value that just satisfies a bound may fail by rounding.
-    let down = (value / unit * (1.0 - 1e-12)).floor() * unit;
-    format!("{down:.2e}").parse().unwrap_or(down)
+    let nearest = three_digits(value);
+    if nearest <= value { nearest } else { three_digits(nearest - last_digit(value)) }
 }
 
 /// The smallest number of three digits that is not below a positive one.
 pub(crate) fn rounded_up(value: f64) -> f64 {
-    let unit = 10.0_f64.powi(value.log10().floor() as i32 - 2);
-    let up = (value / unit * (1.0 + 1e-12)).ceil() * unit;
-    format!("{up:.2e}").parse().unwrap_or(up)
+    let nearest = three_digits(value);
+    if nearest >= value { nearest } else { three_digits(nearest + last_digit(value)) }
+}
+
+fn three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// One in the third digit.
+fn last_digit(value: f64) -> f64 {
+    10.0_f64.powi(value.log10().floor() as i32 - 2)
 }
 
 /// The root of a node in a disjoint-set forest, with path halving: `parent` has the parent of each node; a root is its own.
@@ -131,7 +137,7 @@ mod tests {
             let value = 1.37e-9 * 1.017_f64.powi(k);
             for value in [value, format!("{value:.2e}").parse().unwrap()] {
                 let (down, up) = (rounded_down(value), rounded_up(value));
-                assert!(down < value && value < up && up - down < 0.021 * value, "{down:e} {value:e} {up:e}");
+                assert!(down <= value && value <= up && up - down < 0.011 * value, "{down:e} {value:e} {up:e}");
                 assert_eq!((down, up), (format!("{down:.2e}").parse().unwrap(), format!("{up:.2e}").parse().unwrap()));
             }
         }
