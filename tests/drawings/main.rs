@@ -1,6 +1,7 @@
 //! One pack and one drawing of grains as other programs write them: the same porosity, network and capillary pressures by every route,
 //! and the network of an independent brute-force search. The files are told in `README.md` beside this file.
 
+mod chips;
 mod contents;
 mod damage;
 mod files;

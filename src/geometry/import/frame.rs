@@ -59,7 +59,7 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, options: &Options, notes: &m
         notes.add(format!("{what}: it is read as the rim of a plate, with them as holes (frame = \"solid\")."));
         return Ok(Framed { is_plate: true, ..Framed::default() });
     }
-    let ring = first_ring(&outlines[innermost].outline);
+    let ring = found.ring;
     let domain = ring.bounds();
     let is_wall = found.is_wall;
     if is_wall {
@@ -70,11 +70,13 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, options: &Options, notes: &m
     let mut index = 0;
     let before = outlines.len();
     outlines.retain(|one| {
-        let is_kept = !found.chain.contains(&index) && (!is_wall || overlaps(&one.bounds(), &domain));
+        let is_kept = !found.chain.contains(&index)
+            && !found.united.contains(&index)
+            && (!is_wall || overlaps(&one.bounds(), &domain));
         index += 1;
         is_kept
     });
-    let solid = before - found.chain.len() - outlines.len();
+    let solid = before - found.chain.len() - found.united.len() - outlines.len();
     if solid > 0 {
         notes.add(format!("{solid} outlines beside the chamber lie in the solid."));
     }
@@ -93,7 +95,10 @@ pub(crate) fn around_chamber(chamber: &Ring, domain: Bounds) -> Option<Vec<Regio
 struct Around {
     /// Their indices, from the outermost one.
     chain: Vec<usize>,
-    /// Number of outlines inside the innermost one, and of all others.
+    /// The innermost one, united with outlines on its layer that cross it, as channels do; and their indices.
+    ring: Ring,
+    united: Vec<usize>,
+    /// The outlines inside it, and the number of all others.
     inside: Vec<usize>,
     others: usize,
     /// Whether the innermost one is the wall of a chamber, not a border.
@@ -125,9 +130,22 @@ impl Around {
         let mut chain: Vec<usize> = (0..outlines.len()).filter(|&i| is_candidate(i)).collect();
         chain.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]));
         let (&outermost, &innermost) = chain.first().zip(chain.last())?;
-        let is_border = chain.iter().all(|&i| is_convex(&rings[i])) && areas[innermost] >= DOUBLE * areas[outermost];
         let inside = std::mem::take(&mut inside[innermost]);
-        Some(Self { chain, inside, others: outlines.len() - 1, is_wall: !is_border })
+        let crossing: Vec<usize> = (0..outlines.len())
+            .filter(|&i| {
+                let is_apart = chain.contains(&i) || inside.contains(&i);
+                !is_apart
+                    && outlines[i].paint == outlines[innermost].paint
+                    && overlaps(&rings[i].bounds(), &rings[innermost].bounds())
+            })
+            .collect();
+        let (ring, united) = match united(&rings[innermost], crossing.iter().map(|&i| &rings[i])) {
+            Some(ring) if !crossing.is_empty() => (ring, crossing),
+            _ => (rings[innermost].clone(), Vec::new()),
+        };
+        let are_convex = is_convex(&ring) && chain.iter().all(|&i| is_convex(&rings[i]));
+        let is_border = are_convex && areas[innermost] >= DOUBLE * areas[outermost];
+        Some(Self { chain, ring, united, inside, others: outlines.len() - 1, is_wall: !is_border })
     }
 
     /// Whether the inside of the innermost outline is the pore; `None` if it is left to the fills of the shapes.
@@ -160,6 +178,16 @@ impl Around {
         let (location, inside, others) = (&innermost.location, self.inside.len(), self.others);
         format!("{location}, {kind} without fill{layer}, encloses {inside} of the {others} other outlines")
     }
+}
+
+/// The outer ring of an outline united with others; `None` if it has holes then, or cannot be determined.
+fn united<'a>(ring: &'a Ring, others: impl Iterator<Item = &'a Ring>) -> Option<Ring> {
+    let parts: Vec<Solid> =
+        std::iter::once(ring).chain(others).filter_map(|ring| Solid::of(&(ring.clone(), Vec::new()))).collect();
+    let size = ring.bounds().size().max();
+    let all = Solid::united(&parts, TOLERANCE * size)?;
+    let (outer, holes) = all.into_iter().max_by(|a, b| a.0.area().abs().total_cmp(&b.0.area().abs()))?;
+    holes.is_empty().then_some(outer)
 }
 
 fn is_named(paint: &Paint) -> bool {

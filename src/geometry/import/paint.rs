@@ -33,16 +33,17 @@ pub(crate) fn solids(mut all: Vec<Painted>, notes: &mut Notes, refusals: &mut Ve
     each.flat_map(|one| one.regions.into_iter().map(move |region| (region, one.location.clone()))).collect()
 }
 
-/// Marks filled shapes that lie in larger ones of another color, painted before them. `colors` has the fill of each.
+/// Marks filled shapes whose color is another one than that of the largest shape below them, in which they lie. `colors` has the fill of each.
 pub(crate) fn mark_overlaid<C: PartialEq>(entities: &mut [Entity], colors: &[C]) {
     let boxes: Vec<Bounds> = entities.iter().map(Entity::bounds).collect();
     let tree = Tree::over(boxes.iter().copied());
-    let is_filled = |one: &Entity| one.paint == Paint::Filled;
-    let lies_in = |k: usize| {
-        let mut near = tree.near(boxes[k]);
-        near.any(|i| i < k && is_filled(&entities[i]) && colors[i] != colors[k] && is_in(&boxes[i], &boxes[k]))
+    let is_filled = |i: usize| entities[i].paint == Paint::Filled;
+    let is_overlaid = |k: &usize| {
+        let below = tree.near(boxes[*k]).filter(|&i| i < *k && is_filled(i) && is_in(&boxes[i], &boxes[*k]));
+        let largest = below.max_by(|&a, &b| boxes[a].area().total_cmp(&boxes[b].area()));
+        is_filled(*k) && largest.is_some_and(|i| colors[i] != colors[*k])
     };
-    let marked: Vec<usize> = (0..entities.len()).filter(|&k| is_filled(&entities[k]) && lies_in(k)).collect();
+    let marked: Vec<usize> = (0..entities.len()).filter(is_overlaid).collect();
     marked.into_iter().for_each(|k| entities[k].paint = Paint::Overlaid);
 }
 
