@@ -1,4 +1,6 @@
-"""Ten chips as labs draw them, in `chips`, and what is right: `chips.json` has the porosity of each and the options that answer its question.
+"""Ten chips as labs draw them, in `chips`.
+
+`chips.json` has the porosity of each and the options that answer its question.
 
 Usage: chips.py FOLDER, with ezdxf, svgwrite, gdstk and KLayout. Tests do not need it.
 """
@@ -46,6 +48,7 @@ random.seed(5)
 
 
 def noise():
+    """A number from -0.5 to 0.5."""
     return random.random() - 0.5
 
 
@@ -61,6 +64,7 @@ ON_PAGE = (100 - POST_AREA) / 240
 
 
 def dxf(path, outlines, posts="POSTS", marks=(), squares=False):
+    """Writes outlines with their layers, posts and marks."""
     document = ezdxf.new(units=ezdxf.units.MM)
     space = document.modelspace()
     for layer, corners in outlines:
@@ -80,6 +84,7 @@ def dxf(path, outlines, posts="POSTS", marks=(), squares=False):
 
 
 def svg(path, box, shapes, post):
+    """Writes shapes and posts on a page."""
     x, y, width, height = box
     drawing = svgwrite.Drawing(path, size=(f"{width}mm", f"{height}mm"), viewBox=f"{x} {y} {width} {height}")
     for shape in shapes:
@@ -90,6 +95,7 @@ def svg(path, box, shapes, post):
 
 
 def gds(path):
+    """Writes chamber and posts as GDS, and as the DXF of KLayout."""
     library = gdstk.Library(unit=1e-6, precision=1e-9)
     cell = library.new_cell("CHIP")
     cell.add(gdstk.Polygon([(1e3 * x, 1e3 * y) for x, y in CHAMBER], layer=1))
@@ -105,6 +111,7 @@ def gds(path):
 
 
 def main(folder):
+    """Writes all."""
     chip, line = {"fill": "#404040"}, {"fill": "none", "stroke": "black", "stroke_width": 0.02}
     rectangle, polygon = svgwrite.shapes.Rect, svgwrite.shapes.Polygon
     page = (-4, -2, 20, 12)
