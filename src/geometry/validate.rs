@@ -70,7 +70,9 @@ impl GeometrySpec {
         }
         if found.is_empty() && Geometry::unchecked(self).porosity().value < NO_PORE {
             let help = match self.solid {
-                SolidSide::Inside => "shrink or remove shapes; if the shapes are the pore, set `solid = \"outside\"`",
+                SolidSide::Inside => {
+                    "shrink or remove shapes; if the shapes are the pore, set `solid = \"outside\"`, or `invert` for a drawing"
+                }
                 SolidSide::Outside => "with `solid = \"outside\"` the shapes are the pore: add one that fluid can fill",
             };
             found.push(Problem::new("shapes", "the domain is wholly solid: there is no pore left", help));

@@ -66,7 +66,7 @@ pub enum SetupError {
     /// An open side is closed by solids.
     #[error(
         "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
-         cut the shapes there with a smaller domain"
+         cut the shapes there with a smaller domain (`window`), or exchange solid and pore (`invert`)"
     )]
     NoOpening {
         /// The side.

@@ -18,7 +18,7 @@ pub enum ExtractError {
     },
     /// No walls, hence neither pores nor throats.
     #[error(
-        "no wall lies within the domain, which is all {}; a network needs solid and pore space",
+        "no wall lies within the domain, which is all {}; a network needs solid and pore space: check `window`, or exchange both with `invert`",
         if *.is_solid { "solid" } else { "pore" }
     )]
     NoWalls {
