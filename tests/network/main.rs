@@ -14,6 +14,7 @@ mod dynamic;
 mod films;
 mod generated;
 mod invariants;
+mod mirrored;
 mod packs;
 mod permeability;
 mod pores;

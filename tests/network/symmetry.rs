@@ -371,6 +371,30 @@ fn has_network(size: [f64; 2], discs: &[[f64; 3]], sides: [Pairs; 2]) -> Outcome
 }
 
 #[test]
+fn a_grain_that_is_given_at_both_periodic_sides_counts_once() {
+    let sides = [Pairs::Open, Pairs::Periodic];
+    for at in [0.02, -0.013, 0.0, 0.1 / 3.0, 0.777e-3] {
+        // The copy has the rounding errors of decimals.
+        let copies = [([0.31, at], 0.12), ([0.31, at + 0.8], 0.12)];
+        let others = [([0.62, 0.37], 0.15), ([0.83, 0.61], 0.08)];
+        let scene = |copies: &[([f64; 2], f64)]| {
+            let discs = copies.iter().chain(&others);
+            let grains = discs.map(|&(center, radius)| Grain::Disc(center, radius)).collect();
+            Scene { size: [1.0, 0.8], grains, sides, flow: 0, angle_deg: 20.0, trapping: true }
+        };
+        let [once, twice] = [&copies[..1], &copies].map(|copies| {
+            let network = extract(&scene(copies).geometry(&STILL), [true, true, false, false]).unwrap();
+            let mut numbers: Vec<f64> = network.throats.iter().map(|throat| throat.width).collect();
+            numbers.extend(network.regions.iter().flat_map(|region| [region.radius, region.area]));
+            numbers.sort_by(f64::total_cmp);
+            numbers
+        });
+        let differs = once.iter().zip(&twice).any(|(one, other)| (one - other).abs() > 1e-12);
+        assert!(once.len() == twice.len() && !differs, "{at}: {once:?} {twice:?}");
+    }
+}
+
+#[test]
 fn posts_on_a_square_and_discs_in_tall_boxes_have_a_network() {
     let posts = [[1e-4, 1e-4, 4e-5], [3e-4, 1e-4, 4e-5], [1e-4, 3e-4, 4e-5], [3e-4, 3e-4, 4e-5]];
     let [open, walls] = [Pairs::Open, Pairs::Walls];
