@@ -81,6 +81,20 @@ def dxf(path, outlines, posts="POSTS", marks=(), squares=False):
         space.add_line((x, y - 0.3), (x, y + 0.3), dxfattribs={"layer": layer})
         space.add_text("chip", dxfattribs={"layer": layer}).set_placement((x + 0.5, y))
     document.saveas(path)
+    cut_down(path)
+
+
+def cut_down(path):
+    """Leaves the unit and the entities of a DXF file."""
+    lines = path.read_text().split("\n")
+    pairs = [(lines[i].strip(), lines[i + 1].strip()) for i in range(0, len(lines) - 1, 2)]
+    unit = pairs[pairs.index(("9", "$INSUNITS")) + 1]
+    first = pairs.index(("2", "ENTITIES"))
+    last = pairs.index(("0", "ENDSEC"), first)
+    entities = [pair for pair in pairs[first:last] if pair[0] not in ("100", "330")]
+    head = [("0", "SECTION"), ("2", "HEADER"), ("9", "$INSUNITS"), unit, ("0", "ENDSEC"), ("0", "SECTION")]
+    pairs = [*head, *entities, ("0", "ENDSEC"), ("0", "EOF")]
+    path.write_text("".join(f"{code}\n{value}\n" for code, value in pairs))
 
 
 def svg(path, box, shapes, post):
@@ -100,7 +114,7 @@ def gds(path):
     cell = library.new_cell("CHIP")
     cell.add(gdstk.Polygon([(1e3 * x, 1e3 * y) for x, y in CHAMBER], layer=1))
     for x, y, r in POSTS:
-        cell.add(gdstk.ellipse((1e3 * x, 1e3 * y), 1e3 * r, tolerance=1.0, layer=2))
+        cell.add(gdstk.ellipse((1e3 * x, 1e3 * y), 1e3 * r, tolerance=5.0, layer=2))
     library.write_gds(path.with_suffix(".gds"))
     layout = klayout.db.Layout()
     layout.read(str(path.with_suffix(".gds")))
