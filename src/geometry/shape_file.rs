@@ -4,11 +4,12 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::geometry::import::build::{Imported, Refused, build};
+use crate::geometry::import::build::{Imported, Refused};
 use crate::geometry::import::drawing::Refusal;
 use crate::geometry::import::format::Format;
 use crate::geometry::import::options::Options;
 use crate::geometry::import::read::read;
+use crate::geometry::import::reading::build;
 use crate::input::file;
 use crate::input::problem::Problem;
 

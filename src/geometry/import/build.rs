@@ -1,19 +1,20 @@
 //! From a drawing to shapes in m: unit, repairs, fills and holes, recognition of circles and arcs, domain, and notes on all of these.
 
+use std::collections::BTreeMap;
+
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal, Ring, shape_of};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Refusal, Ring, shape_of};
 use crate::geometry::import::fill::{filled, without_slits};
 use crate::geometry::import::format::Format;
-use crate::geometry::import::frame::{self, Ambiguous, Framed};
-use crate::geometry::import::nest::{self, Region, circle, containing, nested, regions};
+use crate::geometry::import::frame::{self, Framed};
+use crate::geometry::import::nest::{self, Region, circle, nested, regions};
 use crate::geometry::import::notes::{Counts, Notes};
-use crate::geometry::import::options::{Frame, Nested, Options};
+use crate::geometry::import::options::Options;
 use crate::geometry::import::paint::{Painted, solids};
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
 use crate::geometry::import::{overlap, recognize, smooth, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
-use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::geometry::weld::weld;
 use crate::input::problem::Problem;
@@ -54,148 +55,36 @@ struct Placed {
 }
 
 /// What else a drawing says, in m.
-struct Sheet {
+pub(super) struct Sheet {
     frame: Option<Bounds>,
     has_page: bool,
-    nesting: Nesting,
+    pub(super) nesting: Nesting,
     is_of_pixels: bool,
-    is_of_gds: bool,
+    pub(super) layers: BTreeMap<String, usize>,
 }
 
-/// The shapes of a drawing in m.
-pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Result<Imported, Refused> {
+/// The outlines of a drawing in m, what else it says, notes, and parts that are refused.
+pub(super) type Prepared = (Vec<Entity>, Sheet, Notes, Vec<Refusal>);
+
+/// The outlines of a drawing in m, repaired and welded.
+pub(super) fn prepared(drawing: Drawing, format: Format, options: &Options) -> Result<Prepared, Refused> {
     let (scale, unit) = options.length_of_unit(&drawing, format).map_err(|p| Refused::Keys(vec![p]))?;
     let mut notes = Notes::new(unit, &drawing);
-    let Drawing { has_page, nesting, is_of_pixels, .. } = drawing;
+    let Drawing { has_page, nesting, is_of_pixels, layers, .. } = drawing;
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
-    let is_of_gds =
-        nesting == Nesting::OfAll && !drawing.layers.is_empty() && drawing.layers.keys().all(|name| is_gds_layer(name));
-    let sheet = Sheet { frame, has_page, nesting, is_of_pixels, is_of_gds };
+    let sheet = Sheet { frame, has_page, nesting, is_of_pixels, layers };
     let mut refusals = Vec::new();
     let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
     let around = outlines.iter().map(Entity::bounds).reduce(|a, b| a.united(&b));
     let size = around.map_or(0.0, |around| domain(around, frame, options).0.size().max());
     joined(&mut outlines, size, &mut notes.counts);
-    decided(outlines, &sheet, options, notes, refusals)
-}
-
-/// Whether a layer has the name that KLayout gives those of GDS: `L1D0`, layer and datatype.
-fn is_gds_layer(name: &str) -> bool {
-    let numbers = name.strip_prefix('L').and_then(|rest| rest.split_once('D'));
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    numbers.is_some_and(|(layer, datatype)| is_number(layer) && is_number(datatype))
-}
-
-/// The shapes of the outlines as the drawing says, or the options where it leaves that open.
-fn decided(
-    mut outlines: Vec<Entity>,
-    sheet: &Sheet,
-    options: &Options,
-    mut notes: Notes,
-    refusals: Vec<Refusal>,
-) -> Result<Imported, Refused> {
-    let all = outlines.clone();
-    let ask = |what: &str, key: &str, choices: [Choice<'_>; 2], notes: &Notes| {
-        Err(Refused::Keys(vec![question(what, key, choices, (&all, sheet, notes))]))
-    };
-    let overlaid = outlines.iter().filter(|one| one.paint == Paint::Overlaid).count();
-    if overlaid > 0 || (sheet.is_of_gds && has_nested(&outlines)) {
-        let Some(nested) = options.nested else {
-            let with = |nested| Options { nested: Some(nested), ..options.clone() };
-            let what = match overlaid {
-                0 => "outlines lie in others, on layers named as those of GDS".to_owned(),
-                number => format!("shapes ({number}) are painted on larger ones of another color"),
-            };
-            let choices = [
-                ("pore", with(Nested::Pore), "they are channels or holes"),
-                ("solid", with(Nested::Solid), "they are solid, united with the larger ones"),
-            ];
-            return ask(&what, "nested", choices, &notes);
-        };
-        let paint = if nested == Nested::Pore { Paint::White } else { Paint::Filled };
-        outlines.iter_mut().filter(|one| one.paint == Paint::Overlaid).for_each(|one| one.paint = paint.clone());
-    }
-    if sheet.nesting == Nesting::OfAll && options.nested == Some(Nested::Solid) {
-        return completed(outlines, Framed::default(), Nesting::Alternate, sheet, options, notes, refusals);
-    }
-    match frame::taken_out(&mut outlines, options, &mut notes) {
-        Ok(framed) => {
-            let nesting = if framed.is_plate { Nesting::OfAll } else { sheet.nesting };
-            completed(outlines, framed, nesting, sheet, options, notes, refusals)
-        }
-        Err(Ambiguous(what)) => {
-            let with = |frame| Options { frame: Some(frame), ..options.clone() };
-            let choices = [
-                (
-                    "pore",
-                    with(Frame::Pore),
-                    "it is the frame of the chip or the wall of the pore, and the others are grains",
-                ),
-                ("solid", with(Frame::Solid), "it is the rim of a plate, and the others are holes"),
-            ];
-            ask(&what, "frame", choices, &notes)
-        }
-    }
-}
-
-/// Whether an outline lies in another one.
-fn has_nested(outlines: &[Entity]) -> bool {
-    let rings: Vec<Ring> = outlines.iter().map(|one| frame::first_ring(&one.outline)).collect();
-    containing(&rings).iter().any(|around| !around.is_empty())
-}
-
-/// A value of a key, the options with it, and the reading that it means.
-type Choice<'a> = (&'a str, Options, &'a str);
-
-/// The question which of two readings is meant, with both.
-fn question(
-    what: &str,
-    key: &str,
-    choices: [Choice<'_>; 2],
-    (all, sheet, notes): (&[Entity], &Sheet, &Notes),
-) -> Problem {
-    let mut message = format!("the drawing can be read in two ways: {what}");
-    let values = [choices[0].0, choices[1].0];
-    for (value, options, text) in choices {
-        message += &format!("\n\n{key} = \"{value}\": {text}");
-        match decided(all.to_vec(), sheet, &options, notes.clone(), Vec::new()) {
-            Ok(Imported { spec, .. }) => {
-                let geometry = Geometry::unchecked(&spec);
-                let (porosity, solids) = (geometry.porosity().value, spec.shapes.len());
-                message += &format!("; porosity {porosity:.4}, {solids} solids\n{}", sketch(&geometry));
-            }
-            Err(Refused::Keys(_)) => message += "; another question follows",
-            Err(_) => message += "; it cannot be read so",
-        }
-    }
-    let [one, other] = values.map(|value| format!("`{key} = \"{value}\"` (--{key} {value})"));
-    Problem::new(key, message, format!("add {one}, or {other}"))
-}
-
-/// A geometry in characters, solid as `#`.
-fn sketch(geometry: &Geometry) -> String {
-    /// Columns; a character is twice as high as wide.
-    const COLUMNS: usize = 48;
-    const MOST_ROWS: usize = 24;
-    let Bounds { min, max } = geometry.bounds();
-    let size = max - min;
-    let rows = ((0.5 * COLUMNS as f64 * size.y / size.x).round() as usize).clamp(1, MOST_ROWS);
-    let at = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
-    let row = |j: usize| -> String {
-        let mark = |i: usize| {
-            let x = min + size.component_mul(&Vec2::new(at(i, COLUMNS), at(rows - 1 - j, rows)));
-            if geometry.is_solid(x) { '#' } else { '.' }
-        };
-        (0..COLUMNS).map(mark).collect()
-    };
-    (0..rows).map(row).collect::<Vec<_>>().join("\n")
+    Ok((outlines, sheet, notes, refusals))
 }
 
 /// The shapes of the outlines without the frame.
-fn completed(
+pub(super) fn completed(
     outlines: Vec<Entity>,
-    Framed { domain: framed, chamber, .. }: Framed,
-    nesting: Nesting,
+    (Framed { domain: framed, chamber, .. }, nesting): (Framed, Nesting),
     sheet: &Sheet,
     options: &Options,
     mut notes: Notes,

@@ -28,6 +28,7 @@ pub(crate) mod options;
 pub(crate) mod overlap;
 pub(crate) mod paint;
 pub(crate) mod read;
+pub(crate) mod reading;
 pub(crate) mod recognize;
 pub(crate) mod rings;
 pub(crate) mod smooth;
