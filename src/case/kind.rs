@@ -1,6 +1,9 @@
 //! The kind of a TOML file: a case has tables of a geometry and a model, a shape file has its keys at the top level, a study has axes.
 
-use crate::input::Problem;
+use std::path::Path;
+
+use crate::geometry::import::Format;
+use crate::input::{Mistake, Problem};
 
 /// A case file has at least one of these tables, a shape file none.
 const TABLES: [&str; 4] = ["geometry", "sph", "thin-film", "network"];
@@ -35,6 +38,14 @@ pub(super) fn other_than_a_case(text: &str) -> Option<Problem> {
     }
     let help = "`meniscus study plan` and `meniscus study run` take it";
     has(&STUDY).then(|| Problem::new("", "this is a study, and a case was expected", help))
+}
+
+/// The mistake of a file that is read as a case but is a drawing; of a list of discs only its text tells.
+pub(super) fn drawing_in_place_of_a_case(path: &Path) -> Option<Mistake> {
+    let is_other = |format| format == Format::Toml || format == Format::List;
+    Format::of(path).filter(|format| !is_other(*format))?;
+    let help = "`meniscus geometry` measures a drawing, `meniscus network FILE --inlet left --outlet right` drains it, and a case names it in [geometry], file = \"...\"";
+    Some(Mistake::of_file(&path.display().to_string(), "this is a drawing, and a case was expected".into(), help))
 }
 
 /// The problem of a text that is read as a study but is a case.

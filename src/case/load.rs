@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::case_file::{self, Case, Model, RawCase};
-use super::kind::other_than_a_case;
+use super::kind::{drawing_in_place_of_a_case, other_than_a_case};
 use super::magnitude::magnitudes;
 use super::network::RawNetwork;
 use super::network::state::Start;
@@ -50,12 +50,20 @@ const NUMERICS: [&str; 2] = ["sph", "numerics"];
 const DEFAULT_CASE: &str = "cases/four-discs.toml";
 const DEFAULT_CASE_TEXT: &str = include_str!("../../cases/four-discs.toml");
 
+/// The text of a case file.
+fn text_of(path: &Path) -> Result<String, InputError> {
+    match drawing_in_place_of_a_case(path) {
+        Some(mistake) => Err(mistake.into()),
+        None => read(path, "check the path of the case file"),
+    }
+}
+
 /// Loads and checks a case file and the shape file it names.
 ///
 /// # Errors
 /// All mistakes of both files, or the file that cannot be read with its resolved path.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
-    let text = read(path, "check the path of the case file")?;
+    let text = text_of(path)?;
     load_text(&path.display().to_string(), &text, overrides, &Origin::Disk(path))
 }
 
@@ -64,7 +72,7 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
 /// # Errors
 /// As [`load`].
 pub fn load_started(path: &Path, overrides: &Overrides, state: &str) -> Result<Loaded, InputError> {
-    let text = read(path, "check the path of the case file")?;
+    let text = text_of(path)?;
     load_text(&path.display().to_string(), &text, overrides, &Origin::Started(path, state))
 }
 
@@ -101,7 +109,7 @@ pub(crate) fn load_with(
     overrides: &Overrides,
     kept: &KeptGeometry,
 ) -> Result<(Case, Document), InputError> {
-    let text = read(path, "check the path of the case file")?;
+    let text = text_of(path)?;
     let unwritten = check_text(&path.display().to_string(), &text, overrides, (&Origin::Disk(path), Some(kept)))?;
     Ok((unwritten.case, unwritten.document))
 }

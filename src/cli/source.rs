@@ -5,7 +5,7 @@ use std::path::Path;
 use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
 use crate::case::{self, NetworkOptions};
-use crate::geometry::import::{Format, Imported, Options};
+use crate::geometry::import::{Imported, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::geometry::{Geometry, GeometryError};
@@ -59,16 +59,6 @@ fn with_notes_printed(source: Source) -> Source {
 
 /// Loads a case file, or the built-in case if `None`, and checks it against its geometry.
 pub(crate) fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
-    let is_drawing =
-        |path: &&Path| Format::of(path).is_some_and(|format| format != Format::Toml && format != Format::List);
-    if let Some(path) = path.filter(is_drawing) {
-        let file = path.display();
-        let message = format!(
-            "{file} is a drawing, not a case: `meniscus geometry {file}` measures it, `meniscus network {file} --inlet left --outlet right` drains it, and a \
-             case names it as `file` in [geometry]"
-        );
-        return Err(Failure::new(BAD_INPUT, &message));
-    }
     source::load_case(path, overrides).map(with_notes_printed).map_err(Failure::input)
 }
 

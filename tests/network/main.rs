@@ -15,6 +15,7 @@ mod films;
 mod generated;
 mod invariants;
 mod mirrored;
+mod motion;
 mod packs;
 mod permeability;
 mod pores;
