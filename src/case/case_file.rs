@@ -1,15 +1,14 @@
-//! A case file as a whole: its table, the checked case, and the case written out as one file.
+//! A case file as a whole: its table, the checked case, and the case as one file.
 
 use super::film::{RawThinFilm, ThinFilm};
 use super::network::{PoreNetwork, RawNetwork};
-use super::output::{Expectation, Output, RawExpectation, RawOutput, RawTime, raw_expectation, raw_output};
+use super::output::{Expectation, Output, RawExpectation, RawOutput, RawTime};
 use super::shapes::RawGeometry;
 use super::side::Sides;
 use super::sph::{RawSph, Sph};
-use super::steady::{self, SteadyStop};
-use crate::geometry::spec::GeometrySpec;
+use super::steady::SteadyStop;
+use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::input::tables::{Key, tables};
-use crate::math::fnv1a;
 
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
@@ -98,42 +97,19 @@ impl Model {
     }
 }
 
-/// The case as TOML that loads to the same case (angles to the last bit of a degree), with all defaults, presets, overrides and files resolved.
-pub(super) fn text(case: &Case) -> String {
+/// A checked case as TOML, with defaults, presets, overrides and files resolved: it loads to the same case.
+///
+/// `raw` are its tables, to which the checks have added all defaults. In place of the shapes of `case` it can have none.
+pub(super) fn text(mut raw: RawCase, case: &Case, shapes: Vec<ShapeSpec>) -> String {
+    let &GeometrySpec { min, max, solid, .. } = &case.geometry;
+    raw.geometry = Some(RawGeometry {
+        min: Some(min),
+        max: Some(max),
+        solid: Some(solid),
+        shapes: Some(shapes),
+        depth: case.depth,
+        ..RawGeometry::default()
+    });
     // Every value of a checked case can be written as TOML: numbers, texts and tables with text keys.
-    toml::to_string(&raw(case)).unwrap_or_default()
-}
-
-/// A hash of a case and of the hash of its shapes, which many cases may share.
-pub(crate) fn digest(case: &Case, shapes: u64) -> u64 {
-    fnv1a(shapes, text(case).bytes())
-}
-
-fn raw(case: &Case) -> RawCase {
-    let (sph, thin_film, network) = match &case.model {
-        Model::Sph(sph) => (Some(super::sph::raw(sph)), None, None),
-        Model::ThinFilm(film) => (None, Some(super::film::raw(film)), None),
-        Model::Network(network) => (None, None, Some(super::network::raw(network))),
-    };
-    let is_quasi_static = matches!(&case.model, Model::Network(network) if !network.is_dynamic());
-    let geometry = &case.geometry;
-    RawCase {
-        format: Some(1),
-        title: Some(case.title.clone()),
-        geometry: Some(RawGeometry {
-            min: Some(geometry.min),
-            max: Some(geometry.max),
-            solid: Some(geometry.solid),
-            shapes: Some(geometry.shapes.clone()),
-            depth: case.depth,
-            ..RawGeometry::default()
-        }),
-        sph,
-        thin_film,
-        time: (!is_quasi_static)
-            .then_some(RawTime { end: Some(case.end), steady: case.steady.as_ref().map(steady::raw) }),
-        output: Some(raw_output(&case.output, matches!(&case.model, Model::Network(_)), is_quasi_static)),
-        network,
-        expect: Some(case.expect.iter().map(raw_expectation).collect()),
-    }
+    toml::to_string(&raw).unwrap_or_default()
 }

@@ -67,8 +67,8 @@ impl From<Fluid> for RawFluid {
 /// Largest ratio of densities for which the pressure solve is known to converge.
 const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 
-/// The fluid of the table at the key path `at`, `None` if it is wrong.
-pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
+/// The fluid of the table at the key path `at`, `None` if it is wrong; the table then has its properties in place of a preset.
+pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &mut RawFluid) -> Option<Fluid> {
     let path = format!("{at}.temperature-c");
     if checker.is_given(&path, raw.temperature_c.as_ref()) && raw.preset.is_none() {
         checker.refuse(
@@ -88,7 +88,9 @@ pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<F
     let viscosity = raw.viscosity.or(preset.map(|preset| preset.viscosity));
     let density = checker.require(&format!("{at}.density"), density, "density = 998.2 # kg/m3");
     let viscosity = checker.require(&format!("{at}.viscosity"), viscosity, "viscosity = 1.0e-3 # Pa s");
-    Some(Fluid { density: density?, viscosity: viscosity? })
+    let fluid = Fluid { density: density?, viscosity: viscosity? };
+    *raw = fluid.into();
+    Some(fluid)
 }
 
 /// Refuses densities too far apart.

@@ -80,7 +80,7 @@ pub enum InitialVelocity {
 /// The state at time zero from shapes.
 pub(super) fn initial(
     checker: &mut Checker,
-    raw: &RawInitial,
+    raw: &mut RawInitial,
     two_phases: bool,
     geometry: Option<&GeometrySpec>,
 ) -> Option<Initial> {
@@ -89,8 +89,9 @@ pub(super) fn initial(
     if is_of_non_wetting {
         refuse_beside(checker, "non-wetting", &others);
     }
-    let (key, shapes) = if is_of_non_wetting { (NON_WETTING, &raw.non_wetting) } else { (WETTING, &raw.wetting) };
-    let wetting = shapes.clone().unwrap_or_default();
+    let (key, shapes) =
+        if is_of_non_wetting { (NON_WETTING, &mut raw.non_wetting) } else { (WETTING, &mut raw.wetting) };
+    let wetting = shapes.get_or_insert_default().clone();
     for (index, shape) in wetting.iter().enumerate() {
         checker.problems.extend(shape_problems(&format!("{key}[{index}]"), shape, geometry));
     }
@@ -103,13 +104,18 @@ pub(super) fn initial(
     }
     let velocity = velocity(checker, raw);
     let wetting_is_background = !two_phases || is_of_non_wetting || raw.background == Some(FluidPhase::Wetting);
+    if !two_phases {
+        raw.wetting = None;
+    } else if !is_of_non_wetting {
+        raw.background.get_or_insert(FluidPhase::NonWetting);
+    }
     Some(Initial { wetting, wetting_is_background, key, network: None, velocity: velocity? })
 }
 
 /// The state at time zero from that of a network.
 pub(super) fn from_network(
     checker: &mut Checker,
-    raw: &RawInitial,
+    raw: &mut RawInitial,
     two_phases: bool,
     sides: &Sides,
     start: Option<Start>,
@@ -143,6 +149,7 @@ pub(super) fn from_network(
     }
     let wetting_is_background = start.state.invading == FluidPhase::NonWetting;
     let velocity = velocity?;
+    raw.network = Some(start.file.clone());
     Some(Initial { wetting: Vec::new(), wetting_is_background, key: WETTING, network: Some(start), velocity })
 }
 
@@ -157,9 +164,9 @@ fn refuse_beside(checker: &mut Checker, deciding: &str, others: &[(&str, bool)])
     }
 }
 
-fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> {
+fn velocity(checker: &mut Checker, raw: &mut RawInitial) -> Option<InitialVelocity> {
     const PATH: &str = "sph.initial.velocity";
-    let Some(raw) = &raw.velocity else { return Some(InitialVelocity::Rest) };
+    let raw = raw.velocity.get_or_insert(RawVelocity { rest: Some(Empty {}), ..RawVelocity::default() });
     let speed = raw.taylor_green.as_ref().map(|raw| raw.speed);
     match (raw.rest, raw.uniform, speed) {
         (Some(_), None, None) => Some(InitialVelocity::Rest),
@@ -173,30 +180,6 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
                 "choose one of `rest`, `uniform`, `taylor-green`",
             );
             None
-        }
-    }
-}
-
-/// The table of an initial state; `two_phases` if it defines the phases.
-pub(super) fn raw_initial(initial: &Initial, two_phases: bool) -> RawInitial {
-    let by_shapes = two_phases && initial.network.is_none();
-    let [of_wetting, of_other] = [WETTING, NON_WETTING].map(|key| by_shapes && initial.key == key);
-    let background = if initial.wetting_is_background { FluidPhase::Wetting } else { FluidPhase::NonWetting };
-    RawInitial {
-        background: of_wetting.then_some(background),
-        wetting: of_wetting.then(|| initial.wetting.clone()),
-        non_wetting: of_other.then(|| initial.wetting.clone()),
-        network: initial.network.as_ref().map(|start| start.file.clone()),
-        velocity: Some(raw_velocity(&initial.velocity)),
-    }
-}
-
-fn raw_velocity(velocity: &InitialVelocity) -> RawVelocity {
-    match *velocity {
-        InitialVelocity::Rest => RawVelocity { rest: Some(Empty {}), ..RawVelocity::default() },
-        InitialVelocity::Uniform(velocity) => RawVelocity { uniform: Some(velocity.into()), ..RawVelocity::default() },
-        InitialVelocity::TaylorGreen(speed) => {
-            RawVelocity { taylor_green: Some(RawTaylorGreen { speed: Some(speed) }), ..RawVelocity::default() }
         }
     }
 }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use super::case_file::{self, Case, Model, RawCase};
 use super::kind::{drawing_in_place_of_a_case, other_than_a_case};
 use super::magnitude::magnitudes;
-use super::network::RawNetwork;
 use super::network::state::Start;
 use super::read_geometry::{KeptGeometry, Origin, read, read_geometry};
 use super::{depth, film, network, permeability, records, relative_permeability, shapes, sph, start};
@@ -100,32 +99,17 @@ pub(super) fn load_starter(text: &str) -> Result<Loaded, InputError> {
     load_text("the starter case", text, &Overrides::default(), &Origin::BuiltIn)
 }
 
-/// Loads and checks a case file without its resolved text; if its geometry is the one in `kept`, it is not read again.
+/// Loads and checks a case file; if its geometry is the one in `kept`, it is not read again. The resolved text has no shapes.
 ///
 /// # Errors
 /// As [`load`].
-pub(crate) fn load_with(
-    path: &Path,
-    overrides: &Overrides,
-    kept: &KeptGeometry,
-) -> Result<(Case, Document), InputError> {
+pub(crate) fn load_with(path: &Path, overrides: &Overrides, kept: &KeptGeometry) -> Result<Loaded, InputError> {
     let text = text_of(path)?;
-    let unwritten = check_text(&path.display().to_string(), &text, overrides, (&Origin::Disk(path), Some(kept)))?;
-    Ok((unwritten.case, unwritten.document))
-}
-
-/// A checked case without its resolved text.
-struct Unwritten {
-    case: Case,
-    sources: Vec<PathBuf>,
-    notes: Vec<String>,
-    document: Document,
+    check_text(&path.display().to_string(), &text, overrides, (&Origin::Disk(path), Some(kept)))
 }
 
 fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
-    let Unwritten { case, sources, notes, document } = check_text(name, text, overrides, (origin, None))?;
-    let resolved = case_file::text(&case);
-    Ok(Loaded { case, resolved, sources, notes, document })
+    check_text(name, text, overrides, (origin, None))
 }
 
 fn check_text(
@@ -133,13 +117,13 @@ fn check_text(
     text: &str,
     overrides: &Overrides,
     (origin, kept): (&Origin, Option<&KeptGeometry>),
-) -> Result<Unwritten, InputError> {
+) -> Result<Loaded, InputError> {
     let document = Document::parse(name, text, overrides)?.with_renamed(&RENAMED);
     document.refuse(other_than_a_case(text).into_iter().collect())?;
     let mut reading = document.read::<RawCase>();
     let mut checker = Checker::default();
     let written = one_model(&mut checker, std::mem::take(&mut reading.value));
-    let raw = &written.clone().in_range(&mut checker, "");
+    let mut raw = written.clone().in_range(&mut checker, "");
     checker.format(raw.format);
     let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
@@ -165,21 +149,23 @@ fn check_text(
     });
     let folder = origin.path().and_then(Path::parent).unwrap_or(Path::new(""));
     let given = if let Origin::Started(_, state) = origin { Some(*state) } else { None };
-    let start = start::start(&mut checker, raw, (folder, given), geometry.as_ref(), &mut sources);
-    let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
-    let mut model = model(&mut checker, (raw, network.as_ref()), geometry.as_ref(), start);
-    let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth).or(of_file);
+    let start = start::start(&mut checker, &raw, (folder, given), geometry.as_ref(), &mut sources);
+    if let Some(network) = &mut raw.network {
+        network::measured::read(&mut checker, network, folder);
+    }
     let has_wetting_table = raw.sph.as_ref().is_some_and(|sph| sph.wetting.is_some());
+    let mut model = model(&mut checker, &mut raw, geometry.as_ref(), start);
+    let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth).or(of_file);
     depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref(), has_wetting_table);
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
     relative_permeability::relative_permeability(&mut checker, model.as_ref());
-    let end = records::end(&mut checker, raw, model.as_ref());
-    let output = records::output(&mut checker, raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
-    let steady = records::steady(&mut checker, raw, end, &output);
+    let end = records::end(&mut checker, &raw, model.as_ref());
+    let output = records::output(&mut checker, &mut raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
+    let steady = records::steady(&mut checker, &mut raw, end, &output);
     permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
     relative_permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
-    let expect = records::expectations(&mut checker, raw, model.as_ref(), geometry.as_ref());
+    let expect = records::expectations(&mut checker, &mut raw, model.as_ref(), geometry.as_ref());
     magnitudes(&mut checker, "sph", raw.sph.as_ref());
     magnitudes(&mut checker, "thin-film", raw.thin_film.as_ref());
     magnitudes(&mut checker, "network", raw.network.as_ref());
@@ -191,7 +177,9 @@ fn check_text(
         return Err(InputError { mistakes });
     };
     let case = Case { title, geometry, depth, model, end, steady, output, expect };
-    Ok(Unwritten { case, sources, notes, document })
+    let shapes = if kept.is_some() { Vec::new() } else { case.geometry.shapes.clone() };
+    let resolved = case_file::text(raw, &case, shapes);
+    Ok(Loaded { case, resolved, sources, notes, document })
 }
 
 /// Width and height of the domain of a direct simulation in spacings.
@@ -200,14 +188,14 @@ fn in_spacings(geometry: Option<&GeometrySpec>, model: Option<&Model>) -> Option
     Some([0, 1].map(|axis| (geometry.max[axis] - geometry.min[axis]) / sph.spacing))
 }
 
-/// The model of the case; `network` is its network with the measured values from its file.
+/// The model of the case.
 fn model(
     checker: &mut Checker,
-    (raw, network): (&RawCase, Option<&RawNetwork>),
+    raw: &mut RawCase,
     geometry: Option<&GeometrySpec>,
     start: Option<Start>,
 ) -> Option<Model> {
-    match (&raw.sph, &raw.thin_film, network) {
+    match (&mut raw.sph, &mut raw.thin_film, &mut raw.network) {
         (Some(raw), None, None) => sph::sph(checker, raw, geometry, start).map(|sph| Model::Sph(Box::new(sph))),
         (None, Some(raw), None) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
         (None, None, Some(raw)) => {

@@ -21,7 +21,7 @@ impl Offer {
     }
 }
 
-/// The set of groups, and its conversion from and to a case file.
+/// The set of groups, and the table of a case file.
 macro_rules! groups {
     ($(#[doc = $doc:literal] pub $group:ident: [$($name:literal,)*],)*) => {
         tables! {
@@ -48,11 +48,6 @@ macro_rules! groups {
                     given_by: format!("[sph.measure.{}]", name(stringify!($group))),
                     is_given: self.$group,
                 },)*]
-            }
-
-            /// A table for each requested group.
-            pub(super) fn to_raw(&self) -> RawMeasures {
-                RawMeasures { $($group: self.$group.then_some(Empty {}),)* }
             }
         }
     };

@@ -1,8 +1,8 @@
 //! Case files: read and checked, with every mistake located.
 //!
 //! [`load`] goes from a path to a [`Loaded`] case: TOML -> tables, in which every key is optional, so that one mistake does not hide another -> checks -> a
-//! [`Case`], which has every value in SI units and in range. Each file has a table, its checked type, the rules between its keys, and the conversion back; the
-//! allowed values of a single key are declared with the key ([`tables`](crate::input::tables)).
+//! [`Case`], which has every value in SI units and in range. Each file has a table, its checked type, and the rules between its keys, which also set defaults
+//! in the table, so that the tables are the resolved case; the allowed values of a single key are declared with the key ([`tables`](crate::input::tables)).
 
 mod case_file;
 mod depth;
@@ -37,7 +37,6 @@ mod steady;
 mod surface_force;
 mod wetting;
 
-pub(crate) use case_file::digest;
 pub use case_file::{Case, Model};
 pub(crate) use depth::implausible_depth;
 pub use facts::{Facts, check_against};

@@ -82,15 +82,18 @@ pub enum Drive {
 pub(super) fn open(
     checker: &mut Checker,
     sides: &Sides,
-    tables: RawOpenSides,
+    tables: &mut Option<RawOpenSides>,
     two_phases: bool,
 ) -> Option<[Option<Open>; 4]> {
     let before = checker.problems.len();
     let kinds = sides.each();
-    let tables = [tables.left, tables.right, tables.bottom, tables.top];
+    let none = &mut RawOpenSides::default();
+    let all =
+        if kinds.into_iter().any(is_open) { tables.get_or_insert_default() } else { tables.as_mut().unwrap_or(none) };
+    let mut tables = [&mut all.left, &mut all.right, &mut all.bottom, &mut all.top];
     let mut open = [None; 4];
-    for (i, table) in tables.iter().enumerate() {
-        open[i] = side(checker, (SIDES[i], kinds[i]), table.as_ref());
+    for (i, table) in tables.iter_mut().enumerate() {
+        open[i] = side(checker, (SIDES[i], kinds[i]), table);
         if let Some(table) = table {
             phase(checker, SIDES[i], table, two_phases);
         }
@@ -119,7 +122,9 @@ fn is_open(kind: Side) -> bool {
     matches!(kind, Side::Inlet | Side::Outlet)
 }
 
-fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenSide>) -> Option<Open> {
+/// The drive of a side; its table then has all keys.
+fn side(checker: &mut Checker, (name, kind): (&str, Side), table: &mut Option<RawOpenSide>) -> Option<Open> {
+    let raw = table.as_ref();
     let path = at(name);
     let is_given = |key: &str, value: Option<f64>| checker.is_given(&format!("{path}.{key}"), value.as_ref());
     let given = raw.map_or([false; 3], |raw| {
@@ -161,28 +166,28 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
         );
         return None;
     }
-    let raw = raw.cloned().unwrap_or_default();
-    let shape = raw.profile.unwrap_or(Profile::Plug);
+    let raw = table.get_or_insert_default();
+    let has_profile = raw.profile.is_some();
     let drive = match (raw.velocity, raw.flow_rate) {
-        (Some(velocity), _) => Drive::Velocity(velocity, shape),
-        (_, Some(rate)) => Drive::FlowRate(rate, shape),
-        _ => Drive::Pressure(raw.pressure.unwrap_or(0.0)),
+        (Some(velocity), _) => Drive::Velocity(velocity, *raw.profile.get_or_insert(Profile::Plug)),
+        (_, Some(rate)) => Drive::FlowRate(rate, *raw.profile.get_or_insert(Profile::Plug)),
+        _ => Drive::Pressure(*raw.pressure.get_or_insert_default()),
     };
-    if raw.profile.is_some() && !given[1] && !given[2] {
+    if has_profile && !given[1] && !given[2] {
         checker.refuse(
             format!("{path}.profile"),
             "a profile needs a velocity or a flow rate",
             "at a given pressure the profile is a result; leave this out",
         );
     }
-    let pressure_steps = pressure_steps(checker, &path, &raw);
+    let pressure_steps = pressure_steps(checker, &path, raw, given[0]);
     Some(Open { drive, enters_wetting: raw.phase.map(|phase| phase == FluidPhase::Wetting), pressure_steps })
 }
 
-fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide) -> Option<PressureSteps> {
+fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide, has_pressure: bool) -> Option<PressureSteps> {
     let steps = raw.pressure_steps.as_ref()?;
     let path = format!("{side}.pressure-steps");
-    if raw.pressure.is_none() {
+    if !has_pressure {
         checker.refuse(
             path,
             "a pressure that rises in steps needs an initial value",
@@ -237,24 +242,5 @@ fn together(checker: &mut Checker, kinds: [Side; 4], open: [Option<Open>; 4]) {
             "fluid flows in at given velocities at all open sides and cannot leave",
             "make one side an \"outlet\"",
         );
-    }
-}
-
-/// The table of an open side.
-pub(super) fn raw_open(open: Open) -> RawOpenSide {
-    let given = match open.drive {
-        Drive::Pressure(pressure) => RawOpenSide { pressure: Some(pressure), ..RawOpenSide::default() },
-        Drive::Velocity(mean, shape) => {
-            RawOpenSide { velocity: Some(mean), profile: Some(shape), ..RawOpenSide::default() }
-        }
-        Drive::FlowRate(rate, shape) => {
-            RawOpenSide { flow_rate: Some(rate), profile: Some(shape), ..RawOpenSide::default() }
-        }
-    };
-    let phase = |wetting| if wetting { FluidPhase::Wetting } else { FluidPhase::NonWetting };
-    RawOpenSide {
-        phase: open.enters_wetting.map(phase),
-        pressure_steps: open.pressure_steps.map(RawPressureSteps::from),
-        ..given
     }
 }

@@ -96,35 +96,3 @@ pub struct Expectation {
     /// Largest accepted deviation, same unit.
     pub tolerance: f64,
 }
-
-/// The table that loads to the same.
-pub(super) fn raw_output(output: &Output, is_network: bool, by_volume: bool) -> RawOutput {
-    let every = |interval| {
-        let interval = Some(interval);
-        let none = RawEvery::default();
-        Some(if by_volume {
-            RawEvery { every_pore_volume: interval, ..none }
-        } else {
-            RawEvery { every_time: interval, ..none }
-        })
-    };
-    RawOutput {
-        vtk: every(output.vtk_every).map(|every| RawVtk {
-            every_time: every.every_time,
-            every_pore_volume: every.every_pore_volume,
-            compression: Some(output.vtk_compression),
-        }),
-        series: every(output.series_every),
-        grid: (!is_network).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
-        restart: every(output.restart_every),
-    }
-}
-
-/// The expectation as a table.
-pub(super) fn raw_expectation(expect: &Expectation) -> RawExpectation {
-    RawExpectation {
-        measure: Some(expect.measure.clone()),
-        value: Some(expect.value),
-        tolerance: Some(expect.tolerance),
-    }
-}

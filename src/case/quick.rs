@@ -2,6 +2,7 @@
 
 use super::case_file::{Case, Model, RawCase, text};
 use super::network::{RawNetwork, network};
+use super::output::{RawEvery, RawOutput, RawVtk};
 use super::{depth, records, shapes};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, Problem};
@@ -17,19 +18,31 @@ pub(crate) fn quick(
     raw: &RawNetwork,
 ) -> Result<(Case, String), Vec<Problem>> {
     let mut checker = Checker::default();
-    let raw = raw.clone().in_range(&mut checker, "network");
-    let mut found = network(&mut checker, &raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
+    let mut raw = raw.clone().in_range(&mut checker, "network");
+    let mut found =
+        network(&mut checker, &mut raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
     depth::depth(&mut checker, depth, found.as_mut(), Some(&geometry), false);
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref().and_then(Model::sides));
-    let raw_case = RawCase { network: Some(raw), ..RawCase::default() };
-    let end = records::end(&mut checker, &raw_case, found.as_ref());
-    let mut output = records::output(&mut checker, &raw_case, end, None);
+    let mut raw = RawCase {
+        format: Some(1),
+        title: Some(title.to_owned()),
+        network: Some(raw),
+        expect: Some(Vec::new()),
+        ..RawCase::default()
+    };
+    let end = records::end(&mut checker, &raw, found.as_ref());
+    // An interval above the end leaves only the end; it must be above 0 if there is no displacement.
+    let interval = end.map(|end| end.max(1.0));
+    raw.output = Some(RawOutput {
+        vtk: Some(RawVtk { every_pore_volume: interval, ..RawVtk::default() }),
+        restart: Some(RawEvery { every_pore_volume: interval, ..RawEvery::default() }),
+        ..RawOutput::default()
+    });
+    let output = records::output(&mut checker, &mut raw, end, None);
     let (Some(model), Some(end), true) = (found, end, checker.problems.is_empty()) else {
         return Err(checker.problems);
     };
-    // An interval above the end leaves only the end; it must be above 0 if there is no displacement.
-    (output.vtk_every, output.restart_every) = (end.max(1.0), end.max(1.0));
     let case = Case { title: title.to_owned(), geometry, depth, model, end, steady: None, output, expect: Vec::new() };
-    let resolved = text(&case);
+    let resolved = text(raw, &case, case.geometry.shapes.clone());
     Ok((case, resolved))
 }

@@ -4,7 +4,7 @@ use super::case_file::{Model, RawCase};
 use super::measure_groups::Offer;
 use super::measures::{offers, unmeasured};
 use super::network::NetworkDisplacement;
-use super::output::{Compression, Expectation, Output, RawEvery, RawExpectation};
+use super::output::{Compression, Expectation, Output, RawExpectation};
 use super::steady::{FEWEST_ROWS, SteadyStop, WINDOWS};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
@@ -49,11 +49,13 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
 }
 
 /// What is written and when; `end` and `size`, width and height of the domain in spacings, are missing if they were wrong.
-pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, size: Option<[f64; 2]>) -> Output {
-    let output = raw.output.clone().unwrap_or_default();
+pub(super) fn output(checker: &mut Checker, raw: &mut RawCase, end: Option<f64>, size: Option<[f64; 2]>) -> Output {
     let by_volume = is_quasi_static(raw);
+    let output = raw.output.get_or_insert_default();
     let ratio = output.grid.as_ref().and_then(|grid| grid.ratio);
-    if raw.network.is_some() && output.grid.is_some() {
+    if raw.network.is_none() {
+        output.grid.get_or_insert_default().ratio.get_or_insert(1.0);
+    } else if output.grid.is_some() {
         checker.refuse("output.grid", "a network has no grid", "leave this out");
     }
     if let (Some(ratio), Some(size)) = (ratio, size) {
@@ -62,16 +64,22 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, siz
     // In a network, each half cycle has as many records as another run.
     let end = if by_volume { end.map(|end| (end, end.max(1.0))) } else { end.map(|end| (end, 1.0)) };
     let clock = if by_volume { &VOLUME } else { &TIME };
-    let vtk = output
-        .vtk
-        .as_ref()
-        .map(|vtk| RawEvery { every_time: vtk.every_time, every_pore_volume: vtk.every_pore_volume });
-    let mut every = |table, raw, records| every(checker, clock, (table, raw), end, records);
+    let mut every = |table, [time, volume]: [&mut Option<f64>; 2], records| {
+        let (given, other) = if by_volume { (volume, time) } else { (time, volume) };
+        *given.insert(every(checker, clock, table, [*given, *other], end, records))
+    };
+    let vtk = output.vtk.get_or_insert_default();
+    let series = output.series.get_or_insert_default();
+    let restart = output.restart.get_or_insert_default();
     Output {
-        vtk_every: every("output.vtk", vtk.as_ref(), VTK_RECORDS),
-        vtk_compression: output.vtk.as_ref().and_then(|vtk| vtk.compression).unwrap_or(Compression::Zlib),
-        series_every: every("output.series", output.series.as_ref(), SERIES_RECORDS),
-        restart_every: every("output.restart", output.restart.as_ref(), RESTART_RECORDS),
+        vtk_every: every("output.vtk", [&mut vtk.every_time, &mut vtk.every_pore_volume], VTK_RECORDS),
+        vtk_compression: *vtk.compression.get_or_insert(Compression::Zlib),
+        series_every: every("output.series", [&mut series.every_time, &mut series.every_pore_volume], SERIES_RECORDS),
+        restart_every: every(
+            "output.restart",
+            [&mut restart.every_time, &mut restart.every_pore_volume],
+            RESTART_RECORDS,
+        ),
         grid_ratio: ratio.unwrap_or(1.0),
     }
 }
@@ -105,39 +113,33 @@ fn grid(checker: &mut Checker, ratio: f64, [width, height]: [f64; 2]) {
 struct RecordClock {
     key: &'static str,
     other: &'static str,
-    value: fn(&RawEvery) -> [Option<f64>; 2],
     what: &'static str,
     unit: &'static str,
 }
 
-const TIME: RecordClock = RecordClock {
-    key: "every-time",
-    other: "every-pore-volume",
-    value: |raw| [raw.every_time, raw.every_pore_volume],
-    what: "a time in s",
-    unit: " s",
-};
+const TIME: RecordClock =
+    RecordClock { key: "every-time", other: "every-pore-volume", what: "a time in s", unit: " s" };
 
 const VOLUME: RecordClock = RecordClock {
     key: "every-pore-volume",
     other: "every-time",
-    value: |raw| [raw.every_pore_volume, raw.every_time],
     what: "a number of displaced pore volumes",
     unit: " pore volumes",
 };
 
-/// The interval between records; `end` is that of the run and the number of its parts with `records` each.
+/// The interval between records, from the values of its key and of the key of the other clock; `end` is that of the run and the number of its parts with
+/// `records` each.
 fn every(
     checker: &mut Checker,
     clock: &RecordClock,
-    (table, raw): (&str, Option<&RawEvery>),
+    table: &str,
+    [given, other]: [Option<f64>; 2],
     end: Option<(f64, f64)>,
     records: f64,
 ) -> f64 {
     let path = format!("{table}.{}", clock.key);
     let (end_or_one, parts) = end.unwrap_or((1.0, 1.0));
     let default = if end_or_one > 0.0 { end_or_one / (records * parts) } else { 1.0 / records };
-    let [given, other] = raw.map_or([None; 2], clock.value);
     let path_of_other = format!("{table}.{}", clock.other);
     if checker.is_given(&path_of_other, other.as_ref()) {
         checker.refuse(
@@ -162,13 +164,13 @@ fn every(
 /// The complete expectations; `model` and `geometry` are missing if they were wrong.
 pub(super) fn expectations(
     checker: &mut Checker,
-    raw: &RawCase,
+    raw: &mut RawCase,
     model: Option<&Model>,
     geometry: Option<&GeometrySpec>,
 ) -> Vec<Expectation> {
     let is_steady = raw.time.as_ref().is_some_and(|time| time.steady.is_some());
     let offers = model.map(|model| offers(model, geometry, is_steady));
-    let raw = raw.expect.iter().flatten().enumerate();
+    let raw = raw.expect.get_or_insert_default().iter().enumerate();
     let one = |(index, raw)| expectation(checker, &format!("expect[{index}]"), raw, offers.as_deref());
     raw.filter_map(one).collect()
 }
@@ -189,8 +191,14 @@ fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Op
 }
 
 /// Checks `[time.steady]`; `end` in s is missing if it was wrong.
-pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, output: &Output) -> Option<SteadyStop> {
-    let steady = raw.time.as_ref()?.steady.as_ref()?;
+pub(super) fn steady(
+    checker: &mut Checker,
+    raw: &mut RawCase,
+    end: Option<f64>,
+    output: &Output,
+) -> Option<SteadyStop> {
+    let given = &mut raw.time.as_mut()?.steady;
+    let steady = given.as_mut()?;
     if raw.sph.is_none() {
         if raw.network.is_none() {
             checker.refuse(
@@ -199,17 +207,18 @@ pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, out
                 "leave this out; the run ends at time.end",
             );
         }
+        *given = None;
         return None;
     }
     let default = SteadyStop::default();
     let found = SteadyStop {
         window: steady.window,
-        contact_angle: steady.contact_angle_deg.map_or(default.contact_angle, f64::to_radians),
-        capillary_pressure: steady.capillary_pressure.unwrap_or(default.capillary_pressure),
-        saturation: steady.saturation.unwrap_or(default.saturation),
-        capillary_number: steady.capillary_number.unwrap_or(default.capillary_number),
-        kinetic_energy: steady.kinetic_energy.unwrap_or(default.kinetic_energy),
-        stop: steady.stop.unwrap_or(default.stop),
+        contact_angle: steady.contact_angle_deg.get_or_insert(default.contact_angle.to_degrees()).to_radians(),
+        capillary_pressure: *steady.capillary_pressure.get_or_insert(default.capillary_pressure),
+        saturation: *steady.saturation.get_or_insert(default.saturation),
+        capillary_number: *steady.capillary_number.get_or_insert(default.capillary_number),
+        kinetic_energy: *steady.kinetic_energy.get_or_insert(default.kinetic_energy),
+        stop: *steady.stop.get_or_insert(default.stop),
     };
     if let (Some(window), Some(end)) = (steady.window, end) {
         check_window(checker, window, end, output.series_every);

@@ -33,9 +33,6 @@ words! {
 }
 
 impl SideName {
-    /// All sides in the order of their numbers.
-    pub(crate) const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
-
     /// The number of the side: 0 to 3 for left, right, bottom and top.
     pub(crate) fn number(self) -> usize {
         self as usize

@@ -1,6 +1,6 @@
 //! `[sph.sides]` and `[sph.walls]`: the sides of the domain, and the properties of walls.
 
-use super::open::{Open, RawOpenSides, raw_open};
+use super::open::RawOpenSides;
 use super::side::{Side, Sides};
 use crate::input::Checker;
 use crate::input::tables::{Key, tables};
@@ -53,7 +53,7 @@ pub struct Walls {
 }
 
 /// The kinds of the sides.
-pub(super) fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
+pub(super) fn sides(checker: &mut Checker, raw: &mut RawSides) -> Sides {
     let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];
     for pair in given.chunks_exact(2) {
         let [(a, side_a), (b, side_b)] = pair else { continue };
@@ -69,13 +69,18 @@ pub(super) fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
             format!("set {other} = \"periodic\" too"),
         );
     }
-    let side = |side: Option<Side>| side.unwrap_or(Side::Wall);
-    Sides { left: side(raw.left), right: side(raw.right), bottom: side(raw.bottom), top: side(raw.top) }
+    let side = |side: &mut Option<Side>| *side.get_or_insert(Side::Wall);
+    Sides {
+        left: side(&mut raw.left),
+        right: side(&mut raw.right),
+        bottom: side(&mut raw.bottom),
+        top: side(&mut raw.top),
+    }
 }
 
 /// Speeds of the left, right, bottom and top wall; only a side that is a wall can have one.
-pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
-    let speed = raw.speed.clone().unwrap_or_default();
+pub(super) fn wall_speeds(checker: &mut Checker, raw: &mut RawSides) -> [f64; 4] {
+    let speed = raw.speed.get_or_insert_default();
     let sides = [
         ("left", raw.left, speed.left),
         ("right", raw.right, speed.right),
@@ -95,7 +100,7 @@ pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
 }
 
 /// Slip lengths; `has_lines` is whether there can be contact lines on the walls, `spacing` in m.
-pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spacing: Option<f64>) -> Walls {
+pub(super) fn walls(checker: &mut Checker, raw: &mut RawWalls, has_lines: bool, spacing: Option<f64>) -> Walls {
     const LINE: &str = "sph.walls.line-slip-length";
     if checker.is_given(LINE, raw.line_slip_length.as_ref()) && !has_lines {
         checker.refuse(
@@ -106,32 +111,7 @@ pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spac
     }
     // By default, a contact line slips by a spacing, so that it does not run over the adjacent particles.
     let default = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
-    Walls {
-        slip_length: raw.slip_length.unwrap_or_default(),
-        line_slip_length: raw.line_slip_length.or(raw.slip_length).unwrap_or(default),
-    }
-}
-
-/// The table of the sides.
-pub(super) fn raw_sides(sides: &Sides, speeds: [f64; 4], open: [Option<Open>; 4]) -> RawSides {
-    // A side that is not a wall has no speed, not even 0.
-    let given = |side, speed| (side == Side::Wall && speed != 0.0).then_some(speed);
-    let [left, right, bottom, top] = speeds;
-    let speed = RawWallSpeeds {
-        left: given(sides.left, left),
-        right: given(sides.right, right),
-        bottom: given(sides.bottom, bottom),
-        top: given(sides.top, top),
-    };
-    RawSides {
-        left: Some(sides.left),
-        right: Some(sides.right),
-        bottom: Some(sides.bottom),
-        top: Some(sides.top),
-        speed: Some(speed),
-        open: open.iter().any(Option::is_some).then(|| {
-            let [left, right, bottom, top] = open.map(|open| open.map(raw_open));
-            RawOpenSides { left, right, bottom, top }
-        }),
-    }
+    let line_slip_length = raw.line_slip_length.or(raw.slip_length).unwrap_or(default);
+    raw.line_slip_length = has_lines.then_some(line_slip_length);
+    Walls { slip_length: *raw.slip_length.get_or_insert_default(), line_slip_length }
 }

@@ -1,14 +1,14 @@
 //! `[sph]`: direct simulation by incompressible SPH. Its table, the checks of its parts together, and the table of a checked simulation.
 
-use super::fluid::{Fluid, RawFluid, RawInterface, RawPhases, density_ratio, fluid};
-use super::initial::{self, Initial, RawInitial, raw_initial};
+use super::fluid::{Fluid, RawInterface, RawPhases, density_ratio, fluid};
+use super::initial::{self, Initial, RawInitial};
 use super::measure_groups::{MeasureSet, RawMeasures};
 use super::network::state::Start;
 use super::numerics::{self, Numerics, RawNumerics};
 use super::open::{Open, open};
 use super::side::Sides;
-use super::sides::{RawSides, RawWalls, Walls, raw_sides, sides, wall_speeds, walls};
-use super::surface_force::{RawSurfaceForce, SurfaceForce, interface, raw_surface_force};
+use super::sides::{RawSides, RawWalls, Walls, sides, wall_speeds, walls};
+use super::surface_force::{RawSurfaceForce, SurfaceForce, interface};
 use super::wetting::{self, RawWetting, WettingPatch};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
@@ -128,10 +128,10 @@ const MOST_PARTICLES: f64 = 2.0e7;
 /// Fewest particles across the domain: below, the kernels of opposite sides overlap.
 const FEWEST_ACROSS: f64 = 10.0;
 
-/// Checks `[sph]`; `geometry` is missing if it was wrong.
+/// Checks `[sph]` and sets its defaults; `geometry` is missing if it was wrong.
 pub(super) fn sph(
     checker: &mut Checker,
-    raw: &RawSph,
+    raw: &mut RawSph,
     geometry: Option<&GeometrySpec>,
     start: Option<Start>,
 ) -> Option<Sph> {
@@ -139,47 +139,44 @@ pub(super) fn sph(
     if let (Some(spacing), Some(geometry)) = (spacing, geometry) {
         particle_count(checker, spacing, geometry);
     }
-    let phases = raw.phases.clone().unwrap_or_default();
-    let fluid_of_drop = phases.wetting.as_ref().map(|raw| fluid(checker, "sph.phases.wetting", raw));
+    let phases = raw.phases.get_or_insert_default();
+    let fluid_of_drop = phases.wetting.as_mut().map(|raw| fluid(checker, "sph.phases.wetting", raw));
     let liquid = checker.require("sph.phases.wetting", fluid_of_drop, PHASES);
-    let other = phases.non_wetting.as_ref().map(|raw| fluid(checker, "sph.phases.non-wetting", raw));
+    let other = phases.non_wetting.as_mut().map(|raw| fluid(checker, "sph.phases.non-wetting", raw));
     if let (Some(Some(a)), Some(Some(b))) = (&liquid, &other) {
         density_ratio(checker, a, b);
     }
     let two_phases = other.is_some();
-    let (tension, surface_force) = if two_phases {
-        interface(checker, raw.interface.as_ref(), raw.surface_force.as_ref())
-    } else {
-        (Some(0.0), None)
-    };
+    let (tension, surface_force) =
+        if two_phases { interface(checker, raw.interface.as_ref(), &mut raw.surface_force) } else { (Some(0.0), None) };
     let wetting_model =
-        if two_phases { wetting::model(checker, "sph.wetting", raw.wetting.as_ref(), tension) } else { None };
+        if two_phases { wetting::model(checker, "sph.wetting", raw.wetting.as_mut(), tension) } else { None };
     if !two_phases {
         refuse_single_phase_keys(checker, raw);
     }
-    let raw_sides = raw.sides.clone().unwrap_or_default();
-    let wall_speeds = wall_speeds(checker, &raw_sides);
-    let sides = sides(checker, &raw_sides);
-    let open = open(checker, &sides, raw_sides.open.unwrap_or_default(), two_phases);
+    let raw_sides = raw.sides.get_or_insert_default();
+    let wall_speeds = wall_speeds(checker, raw_sides);
+    let sides = sides(checker, raw_sides);
+    let open = open(checker, &sides, &mut raw_sides.open, two_phases);
     let patches = match wetting_model {
-        Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_ref(), model, Some(&sides), geometry),
+        Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_mut(), model, Some(&sides), geometry),
         None => Vec::new(),
     };
-    let raw_initial = raw.initial.clone().unwrap_or_default();
+    let raw_initial = raw.initial.get_or_insert_default();
     let initial = match raw_initial.network {
-        Some(_) => initial::from_network(checker, &raw_initial, two_phases, &sides, start),
-        None => initial::initial(checker, &raw_initial, two_phases, geometry),
+        Some(_) => initial::from_network(checker, raw_initial, two_phases, &sides, start),
+        None => initial::initial(checker, raw_initial, two_phases, geometry),
     };
-    let walls = walls(checker, &raw.walls.clone().unwrap_or_default(), wetting_model.is_some(), spacing);
-    let measure = MeasureSet::from_raw(&raw.measure.clone().unwrap_or_default());
+    let walls = walls(checker, raw.walls.get_or_insert_default(), wetting_model.is_some(), spacing);
+    let measure = MeasureSet::from_raw(raw.measure.get_or_insert_default());
     let default = match measure.relative_permeability {
         true => numerics::beside_frozen_interface(),
         false => numerics::default(surface_force),
     };
-    let numerics = raw.numerics.clone().unwrap_or_default().or(default);
+    let numerics = RawNumerics::filled(&mut raw.numerics, default);
     Some(Sph {
         spacing: spacing?,
-        smoothing_ratio: raw.smoothing_ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
+        smoothing_ratio: *raw.smoothing_ratio.get_or_insert(DEFAULT_SMOOTHING_RATIO),
         wetting: liquid??,
         non_wetting: match other {
             Some(other) => Some(other?),
@@ -192,7 +189,7 @@ pub(super) fn sph(
         wetting_model,
         wetting_patches: patches,
         reference_length: raw.reference_length,
-        gravity: Vec2::from(raw.gravity.unwrap_or_default()),
+        gravity: Vec2::from(*raw.gravity.get_or_insert_default()),
         sides,
         walls,
         wall_speeds,
@@ -250,29 +247,5 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
             format!("`{path}` needs two phases, and there is no [sph.phases.non-wetting]"),
             "add the second phase, or leave this out",
         );
-    }
-}
-
-/// The table that loads to the same.
-pub(super) fn raw(sph: &Sph) -> RawSph {
-    let two_phases = sph.non_wetting.is_some();
-    RawSph {
-        spacing: Some(sph.spacing),
-        smoothing_ratio: Some(sph.smoothing_ratio),
-        profile_factor: sph.profile_factor,
-        reference_length: sph.reference_length,
-        gravity: Some(sph.gravity.into()),
-        phases: Some(RawPhases { wetting: Some(sph.wetting.into()), non_wetting: sph.non_wetting.map(RawFluid::from) }),
-        interface: two_phases.then_some(RawInterface { tension: Some(sph.tension) }),
-        surface_force: sph.surface_force.map(raw_surface_force),
-        wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
-        sides: Some(raw_sides(&sph.sides, sph.wall_speeds, sph.open)),
-        walls: Some(RawWalls {
-            slip_length: Some(sph.walls.slip_length),
-            line_slip_length: sph.wetting_model.map(|_| sph.walls.line_slip_length),
-        }),
-        initial: Some(raw_initial(&sph.initial, two_phases)),
-        numerics: Some(sph.numerics.into()),
-        measure: Some(sph.measure.to_raw()),
     }
 }

@@ -61,16 +61,3 @@ impl Default for SteadyStop {
         }
     }
 }
-
-/// The table that loads to the same.
-pub(super) fn raw(steady: &SteadyStop) -> RawSteady {
-    RawSteady {
-        window: steady.window,
-        contact_angle_deg: Some(steady.contact_angle.to_degrees()),
-        capillary_pressure: Some(steady.capillary_pressure),
-        saturation: Some(steady.saturation),
-        capillary_number: Some(steady.capillary_number),
-        kinetic_energy: Some(steady.kinetic_energy),
-        stop: Some(steady.stop),
-    }
-}

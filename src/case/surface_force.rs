@@ -61,11 +61,15 @@ const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::PressureJump { curvatu
 pub(super) fn interface(
     checker: &mut Checker,
     interface: Option<&RawInterface>,
-    force: Option<&RawSurfaceForce>,
+    force: &mut Option<RawSurfaceForce>,
 ) -> (Option<f64>, Option<SurfaceForce>) {
     const PATH: &str = "sph.interface.tension";
     let tension = checker.require(PATH, interface.and_then(|interface| interface.tension), "tension = 0.0276 # N/m");
-    let chosen = match force.map(|force| (&force.csf, &force.pressure_jump)) {
+    let is_given = force.is_some();
+    if !is_given && tension.is_some_and(|tension| tension > 0.0) {
+        *force = Some(RawSurfaceForce { pressure_jump: Some(RawPressureJump::default()), csf: None });
+    }
+    let chosen = match force.as_ref().map(|force| (&force.csf, &force.pressure_jump)) {
         None => DEFAULT_SURFACE_FORCE,
         Some((Some(csf), None)) => SurfaceForce::Csf { line_delta: csf.line_delta.unwrap_or(LineDelta::Normalized) },
         Some((None, Some(jump))) => SurfaceForce::PressureJump { curvature: jump.curvature },
@@ -78,7 +82,7 @@ pub(super) fn interface(
             DEFAULT_SURFACE_FORCE
         }
     };
-    if force.is_some() && tension == Some(0.0) {
+    if is_given && tension == Some(0.0) {
         checker.refuse(
             "sph.surface-force",
             "a surface force needs a tension above 0",
@@ -86,18 +90,4 @@ pub(super) fn interface(
         );
     }
     (tension, tension.filter(|tension| *tension > 0.0).map(|_| chosen))
-}
-
-/// The table of a surface force.
-pub(super) fn raw_surface_force(force: SurfaceForce) -> RawSurfaceForce {
-    match force {
-        SurfaceForce::Csf { line_delta } => {
-            // The default is omitted.
-            let line_delta = Some(line_delta).filter(|delta| *delta != LineDelta::Normalized);
-            RawSurfaceForce { csf: Some(RawCsf { line_delta }), pressure_jump: None }
-        }
-        SurfaceForce::PressureJump { curvature } => {
-            RawSurfaceForce { csf: None, pressure_jump: Some(RawPressureJump { curvature }) }
-        }
-    }
 }

@@ -124,7 +124,7 @@ impl Stripes {
 pub(super) fn model(
     checker: &mut Checker,
     table: &str,
-    raw: Option<&RawWetting>,
+    raw: Option<&mut RawWetting>,
     tension: Option<f64>,
 ) -> Option<Wetting> {
     let raw = raw?;
@@ -138,6 +138,7 @@ pub(super) fn model(
         return None;
     }
     let model = raw.checked(checker, table)?;
+    *raw = RawWetting::of(&model, raw.patches.take());
     if tension == Some(0.0) {
         let law = model.table();
         checker.refuse(
@@ -153,16 +154,16 @@ pub(super) fn model(
 pub(super) fn patches(
     checker: &mut Checker,
     table: &str,
-    raw: Option<&RawWetting>,
+    raw: Option<&mut RawWetting>,
     model: Wetting,
     sides: Option<&Sides>,
     geometry: Option<&GeometrySpec>,
 ) -> Vec<WettingPatch> {
-    let raw = raw.and_then(|raw| raw.patches.as_ref()).into_iter().flatten().enumerate();
+    let raw = raw.and_then(|raw| raw.patches.as_mut()).into_iter().flatten().enumerate();
     raw.filter_map(|(index, raw)| {
         let at = format!("{table}.patches[{index}]");
         let on = patched_wall(checker, &at, raw, sides, geometry);
-        let stripes = raw.stripes.as_ref().map(|raw| stripes(checker, &format!("{at}.stripes"), raw));
+        let stripes = raw.stripes.as_mut().map(|raw| stripes(checker, &format!("{at}.stripes"), raw));
         let model = patch_model(checker, &at, raw, model);
         let stripes = match stripes {
             Some(stripes) => Some(stripes?),
@@ -245,7 +246,7 @@ fn patched_wall(
     }
 }
 
-fn stripes(checker: &mut Checker, at: &str, raw: &RawStripes) -> Option<Stripes> {
+fn stripes(checker: &mut Checker, at: &str, raw: &mut RawStripes) -> Option<Stripes> {
     let width = raw.width?;
     if raw.period.is_some_and(|period| period < width) {
         checker.refuse(
@@ -255,37 +256,6 @@ fn stripes(checker: &mut Checker, at: &str, raw: &RawStripes) -> Option<Stripes>
         );
         return None;
     }
-    let axis = usize::from(raw.along == Some(RawAxis::Y));
-    Some(Stripes { axis, start: raw.start.unwrap_or_default(), width, period: raw.period })
-}
-
-/// Model and patches as written.
-pub(super) fn raw(model: &Wetting, patches: &[WettingPatch]) -> RawWetting {
-    RawWetting::of(model, (!patches.is_empty()).then(|| patches.iter().map(raw_patch).collect()))
-}
-
-fn raw_patch(patch: &WettingPatch) -> RawWettingPatch {
-    RawWettingPatch {
-        shape: match patch.on {
-            PatchedWall::Shape(shape) => Some(shape),
-            _ => None,
-        },
-        side: match patch.on {
-            PatchedWall::Side(side) => SideName::ALL.get(side as usize).copied(),
-            _ => None,
-        },
-        plate: match patch.on {
-            PatchedWall::Plate(plate) => Some(plate),
-            _ => None,
-        },
-        stripes: patch.stripes.map(|stripes| RawStripes {
-            along: Some(if stripes.axis == 0 { RawAxis::X } else { RawAxis::Y }),
-            start: Some(stripes.start),
-            width: Some(stripes.width),
-            period: stripes.period,
-        }),
-        contact_angle_deg: patch.model.parameter("contact-angle-deg"),
-        advancing_angle_deg: patch.model.parameter("advancing-angle-deg"),
-        receding_angle_deg: patch.model.parameter("receding-angle-deg"),
-    }
+    let axis = *raw.along.get_or_insert(RawAxis::X) as usize;
+    Some(Stripes { axis, start: *raw.start.get_or_insert_default(), width, period: raw.period })
 }

@@ -250,6 +250,14 @@ macro_rules! checked_tables {
                 $checked { $($field: self.$field.unwrap_or(default.$field),)* }
             }
 
+            /// The same in place: the table then has all keys.
+            #[allow(dead_code, reason = "a table needs this or `complete`")]
+            pub(crate) fn filled(table: &mut Option<Self>, default: $checked) -> $checked {
+                let checked = table.take().unwrap_or_default().or(default);
+                *table = Some(checked.into());
+                checked
+            }
+
             /// The table, if nothing is missing.
             #[allow(dead_code, reason = "a table needs this or `or`")]
             pub(crate) fn complete(self) -> Option<$checked> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::definition::Assignment;
-use crate::case::{self, Case, KeptGeometry, Loaded};
+use crate::case::{self, KeptGeometry, Loaded};
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
 
@@ -28,13 +28,13 @@ pub(super) fn load(case: &Path, assignments: &[Assignment]) -> Result<Loaded, In
     Ok(loaded)
 }
 
-/// Loads a case of a network with these values, without its resolved text; `kept` has the geometry of the previous case.
+/// Loads a case of a network with these values, its resolved text without shapes; `kept` has the geometry of the previous case.
 ///
 /// # Errors
 /// All mistakes.
-pub(super) fn load_with(case: &Path, assignments: &[Assignment], kept: &KeptGeometry) -> Result<Case, InputError> {
+pub(super) fn load_with(case: &Path, assignments: &[Assignment], kept: &KeptGeometry) -> Result<Loaded, InputError> {
     let overrides = Overrides::parse(&overrides(assignments))?;
-    let (case, document) = case::load_with(case, &overrides, kept)?;
-    document.refuse(setup::problems(&case))?;
-    Ok(case)
+    let loaded = case::load_with(case, &overrides, kept)?;
+    loaded.refuse(setup::problems(&loaded.case))?;
+    Ok(loaded)
 }

@@ -109,11 +109,11 @@ impl Run {
         self.load(study).map_err(|error| self.placed(study, error))
     }
 
-    /// Loads the case of the run, one of a network, without its resolved text; `kept` has the geometry of the previous run.
+    /// Loads the case of the run, one of a network, its resolved text without shapes; `kept` has the geometry of the previous run.
     ///
     /// # Errors
     /// As [`plan`](Self::plan).
-    pub(crate) fn case(&self, study: &Study, kept: &KeptGeometry) -> Result<Case, InputError> {
+    pub(crate) fn case(&self, study: &Study, kept: &KeptGeometry) -> Result<Loaded, InputError> {
         base_case::load_with(&self.case, &self.assignments, kept).map_err(|error| self.placed(study, error))
     }
 

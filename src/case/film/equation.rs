@@ -76,12 +76,12 @@ const DRY: f64 = 0.1;
 const ANGLES: (f64, f64) = (0.1, 45.0);
 
 /// The equation of a case, `None` if it is missing or wrong.
-pub(super) fn equation(checker: &mut Checker, raw: &RawFilmEquation) -> Option<FilmEquation> {
-    match (&raw.geometric, &raw.slip, &raw.precursor) {
+pub(super) fn equation(checker: &mut Checker, raw: &mut RawFilmEquation) -> Option<FilmEquation> {
+    match (&raw.geometric, &mut raw.slip, &raw.precursor) {
         (Some(raw), None, None) => raw.clone().complete().map(FilmEquation::Geometric),
         (None, Some(raw), None) => {
-            let film_height = raw.film_height.or(raw.slip_length.map(|slip| DRY * slip));
-            RawSlip { film_height, ..raw.clone() }.complete().map(FilmEquation::Slip)
+            raw.film_height = raw.film_height.or(raw.slip_length.map(|slip| DRY * slip));
+            raw.clone().complete().map(FilmEquation::Slip)
         }
         (None, None, Some(raw)) => {
             let slip_length = raw.slip_length.or(Some(0.0));
@@ -101,7 +101,7 @@ pub(super) fn equation(checker: &mut Checker, raw: &RawFilmEquation) -> Option<F
 
 /// The contact angle at rest in rad; the outer option is missing if it was wrong.
 #[expect(clippy::option_option, reason = "a wrong angle is not the same as complete wetting")]
-pub(super) fn wetting(checker: &mut Checker, raw: &RawFilmWetting) -> Option<Option<f64>> {
+pub(super) fn wetting(checker: &mut Checker, raw: &mut RawFilmWetting) -> Option<Option<f64>> {
     match (&raw.complete, &raw.partial) {
         (Some(_), Some(_)) => {
             checker.refuse(
@@ -111,7 +111,10 @@ pub(super) fn wetting(checker: &mut Checker, raw: &RawFilmWetting) -> Option<Opt
             );
             None
         }
-        (_, None) => Some(None),
+        (_, None) => {
+            raw.complete = Some(Empty {});
+            Some(None)
+        }
         (None, Some(partial)) => partial.contact_angle_deg.map(|angle| Some(angle.to_radians())),
     }
 }
@@ -126,26 +129,4 @@ pub(super) fn partial_wetting(checker: &mut Checker, equation: FilmEquation, sym
         _ => return,
     };
     checker.refuse("thin-film.wetting.partial", message, "[thin-film.equation.precursor] can do it");
-}
-
-/// The table of an equation.
-pub(super) fn raw_equation(equation: FilmEquation) -> RawFilmEquation {
-    let none = RawFilmEquation::default();
-    match equation {
-        FilmEquation::Geometric(geometric) => RawFilmEquation { geometric: Some(geometric.into()), ..none },
-        FilmEquation::Slip(slip) => RawFilmEquation { slip: Some(slip.into()), ..none },
-        FilmEquation::Precursor(precursor) => {
-            let slip_length = (precursor.slip_length > 0.0).then_some(precursor.slip_length);
-            RawFilmEquation { precursor: Some(RawPrecursor { slip_length, ..precursor.into() }), ..none }
-        }
-    }
-}
-
-/// The table of a contact angle at rest in rad.
-pub(super) fn raw_wetting(contact_angle: Option<f64>) -> RawFilmWetting {
-    let degrees = contact_angle.map(|angle| angle.to_degrees().clamp(ANGLES.0, ANGLES.1));
-    RawFilmWetting {
-        complete: degrees.is_none().then_some(Empty {}),
-        partial: degrees.map(|angle| RawPartialWetting { contact_angle_deg: Some(angle) }),
-    }
 }

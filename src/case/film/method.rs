@@ -87,7 +87,7 @@ pub(super) enum DefaultMethod {
 
 pub(super) fn method(
     checker: &mut Checker,
-    raw: &RawFilmMethod,
+    raw: &mut RawFilmMethod,
     particles_can_be: bool,
     default: DefaultMethod,
 ) -> Option<FilmMethod> {
@@ -108,17 +108,7 @@ pub(super) fn method(
         return None;
     }
     if raw.finite_differences.is_some() || (raw.particles.is_none() && default == DefaultMethod::FiniteDifferences) {
-        return Some(FilmMethod::FiniteDifferences(raw.finite_differences.clone().unwrap_or_default().or(GRID)));
+        return Some(FilmMethod::FiniteDifferences(RawFilmGrid::filled(&mut raw.finite_differences, GRID)));
     }
-    Some(FilmMethod::Particles(raw.particles.clone().unwrap_or_default().or(PARTICLES)))
-}
-
-/// The table of a method.
-pub(super) fn raw_method(method: FilmMethod) -> RawFilmMethod {
-    match method {
-        FilmMethod::Particles(particles) => RawFilmMethod { particles: Some(particles.into()), ..Default::default() },
-        FilmMethod::FiniteDifferences(grid) => {
-            RawFilmMethod { finite_differences: Some(grid.into()), ..Default::default() }
-        }
-    }
+    Some(FilmMethod::Particles(RawFilmParticles::filled(&mut raw.particles, PARTICLES)))
 }

@@ -14,4 +14,4 @@ pub use droplets::{FilmDroplet, FilmSymmetry};
 pub(crate) use equation::{FilmEquation, Geometric, Precursor, Slip};
 pub use method::{FilmGrid, FilmIntegrator, FilmMethod, FilmParticles, FilmSums, LatticeEnergy};
 pub use model::{FilmWeights, ThinFilm};
-pub(super) use thin_film::{RawThinFilm, raw, thin_film};
+pub(super) use thin_film::{RawThinFilm, thin_film};

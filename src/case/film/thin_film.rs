@@ -2,10 +2,9 @@
 
 use super::droplets::{FilmSymmetry, RawDroplet, domain, droplets};
 use super::equation::{
-    EQUATION, FilmEquation, Geometric, RawFilmEquation, RawFilmWetting, equation, partial_wetting, raw_equation,
-    raw_wetting, wetting,
+    EQUATION, FilmEquation, Geometric, RawFilmEquation, RawFilmWetting, equation, partial_wetting, wetting,
 };
-use super::method::{DefaultMethod, FilmMethod, FilmParticles, LatticeEnergy, RawFilmMethod, method, raw_method};
+use super::method::{DefaultMethod, FilmMethod, FilmParticles, LatticeEnergy, RawFilmMethod, method};
 use super::model::{FilmWeights, SCALED, ThinFilm};
 use super::resolution::{count, particles, resolution, rounding};
 use super::thinness;
@@ -73,25 +72,25 @@ pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid>
     Some(Liquid { viscosity: viscosity?, tension: tension?, density: density?, gravity })
 }
 
-/// Checks `[thin-film]`; `geometry` is missing if it was wrong.
+/// Checks `[thin-film]` and sets its defaults; `geometry` is missing if it was wrong.
 pub(in crate::case) fn thin_film(
     checker: &mut Checker,
-    raw: &RawThinFilm,
+    raw: &mut RawThinFilm,
     geometry: Option<&GeometrySpec>,
 ) -> Option<ThinFilm> {
     let liquid = liquid(checker, raw);
     let spacing = raw.spacing;
-    let symmetry = raw.symmetry.unwrap_or(FilmSymmetry::Plane);
+    let symmetry = *raw.symmetry.get_or_insert(FilmSymmetry::Plane);
     let droplets = droplets(checker, raw.droplets.as_deref().unwrap_or_default(), symmetry);
-    let equation = equation(checker, &raw.equation.clone().unwrap_or_default());
-    let contact_angle = wetting(checker, &raw.wetting.clone().unwrap_or_default());
+    let equation = equation(checker, raw.equation.get_or_insert_default());
+    let contact_angle = wetting(checker, raw.wetting.get_or_insert_default());
     let particles_can_be =
         symmetry == FilmSymmetry::Plane && equation.is_none_or(|e| matches!(e, FilmEquation::Geometric(_)));
     let default = match contact_angle {
         Some(None) if particles_can_be => DefaultMethod::Particles,
         _ => DefaultMethod::FiniteDifferences,
     };
-    let method = method(checker, &raw.method.clone().unwrap_or_default(), particles_can_be, default);
+    let method = method(checker, raw.method.get_or_insert_default(), particles_can_be, default);
     if let (Some(equation), Some(Some(_))) = (equation, contact_angle) {
         partial_wetting(checker, equation, symmetry);
     }
@@ -125,6 +124,14 @@ pub(in crate::case) fn thin_film(
         }
     }
     let Liquid { viscosity, tension, density, gravity } = liquid?;
+    let droplets = droplets?;
+    raw.fluid = Some(RawFluid {
+        density: (density > 0.0).then_some(density),
+        viscosity: Some(viscosity),
+        ..RawFluid::default()
+    });
+    (raw.tension, raw.gravity) = (Some(tension), Some(gravity));
+    raw.droplets = Some(droplets.iter().copied().map(RawDroplet::from).collect());
     let film = ThinFilm {
         viscosity,
         tension,
@@ -132,11 +139,11 @@ pub(in crate::case) fn thin_film(
         gravity,
         spacing: spacing?,
         symmetry,
-        droplets: droplets?,
+        droplets,
         equation: equation?,
         contact_angle: contact_angle?,
         method: method?,
-        weights: raw.weights.unwrap_or(FilmWeights::Cell),
+        weights: *raw.weights.get_or_insert(FilmWeights::Cell),
     };
     thinness::steepness(checker, &film);
     thinness::rim(checker, &film);
@@ -144,21 +151,4 @@ pub(in crate::case) fn thin_film(
         thinness::room(checker, &film, geometry);
     }
     Some(film)
-}
-
-/// The film as a table that loads to the same film.
-pub(in crate::case) fn raw(film: &ThinFilm) -> RawThinFilm {
-    let density = (film.density > 0.0).then_some(film.density);
-    RawThinFilm {
-        fluid: Some(RawFluid { density, viscosity: Some(film.viscosity), ..RawFluid::default() }),
-        tension: Some(film.tension),
-        gravity: Some(film.gravity),
-        spacing: Some(film.spacing),
-        symmetry: Some(film.symmetry),
-        droplets: Some(film.droplets.iter().copied().map(RawDroplet::from).collect()),
-        equation: Some(raw_equation(film.equation)),
-        wetting: Some(raw_wetting(film.contact_angle)),
-        method: Some(raw_method(film.method)),
-        weights: Some(film.weights),
-    }
 }

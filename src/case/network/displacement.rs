@@ -1,8 +1,8 @@
 //! The displacement in a network: the invading phase, the events, the initial state and the end.
 
-use super::dynamic::{DynamicDrive, drive, raw_dynamic};
+use super::dynamic::{DynamicDrive, drive};
 use super::state::Start;
-use super::table::{Events, RawNetwork, RawProcess, RawStop};
+use super::table::{Events, RawNetwork, RawProcess};
 use crate::case::side::Sides;
 use crate::input::Checker;
 
@@ -85,11 +85,11 @@ pub struct Stop {
 }
 
 /// Checks the keys of `[network]` for the displacement.
-pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Option<Start>) -> NetworkDisplacement {
-    let process = match raw.process {
-        None | Some(RawProcess::Drainage) => Process::Drainage,
-        Some(RawProcess::Imbibition) => Process::Imbibition,
-        Some(RawProcess::Cycle) => Process::Cycle(raw.cycles.unwrap_or(1)),
+pub(super) fn displacement(checker: &mut Checker, raw: &mut RawNetwork, initial: Option<Start>) -> NetworkDisplacement {
+    let process = match *raw.process.get_or_insert(RawProcess::Drainage) {
+        RawProcess::Drainage => Process::Drainage,
+        RawProcess::Imbibition => Process::Imbibition,
+        RawProcess::Cycle => Process::Cycle(raw.cycles.unwrap_or(1)),
     };
     if checker.is_given("network.cycles", raw.cycles.as_ref()) && !matches!(process, Process::Cycle(_)) {
         checker.refuse(
@@ -105,16 +105,22 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
             "add outlet = \"right\", say",
         );
     }
+    if let Process::Cycle(cycles) = process {
+        raw.cycles = Some(cycles);
+    }
+    let stop = stop(checker, raw);
+    let dynamic = drive(checker, raw, matches!(process, Process::Cycle(_)));
+    if raw.dynamic.is_none() {
+        raw.trapping.get_or_insert(true);
+    }
+    raw.initial = initial.as_ref().map(|start: &Start| start.file.clone());
     NetworkDisplacement {
         process,
         trapping: raw.trapping.unwrap_or(true).into(),
         films: raw.films.unwrap_or_default(),
-        events: raw.events.unwrap_or(Events::All),
-        stop: stop(checker, raw),
-        dynamic: raw
-            .dynamic
-            .as_ref()
-            .and_then(|dynamic| drive(checker, raw, dynamic, matches!(process, Process::Cycle(_)))),
+        events: *raw.events.get_or_insert(Events::All),
+        stop,
+        dynamic,
         initial,
     }
 }
@@ -127,8 +133,8 @@ pub(super) fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &S
     }
 }
 
-fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
-    let given = raw.stop.clone().unwrap_or_default();
+fn stop(checker: &mut Checker, raw: &mut RawNetwork) -> Stop {
+    let given = raw.stop.get_or_insert_default();
     if given.breakthrough == Some(true) && raw.outlet.is_none() {
         checker.refuse(
             "network.stop.breakthrough",
@@ -144,7 +150,7 @@ fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
         );
     }
     Stop {
-        breakthrough: given.breakthrough.unwrap_or_default(),
+        breakthrough: *given.breakthrough.get_or_insert_default(),
         saturation: given.saturation,
         capillary_pressure: given.capillary_pressure,
         injected: given.injected,
@@ -171,31 +177,5 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
             format!("`{key}` belongs to a displacement, and there is no inlet"),
             "add inlet = \"left\", say; without an inlet the network is extracted and nothing is displaced",
         );
-    }
-}
-
-/// The keys of a displacement, besides those of its network.
-pub(super) fn raw_displacement(displacement: &NetworkDisplacement, network: RawNetwork) -> RawNetwork {
-    let (process, cycles) = match displacement.process {
-        Process::Drainage => (RawProcess::Drainage, None),
-        Process::Imbibition => (RawProcess::Imbibition, None),
-        Process::Cycle(cycles) => (RawProcess::Cycle, Some(cycles)),
-    };
-    let stop = displacement.stop;
-    RawNetwork {
-        process: Some(process),
-        cycles,
-        trapping: displacement.dynamic.is_none().then_some(displacement.trapping.into()),
-        films: displacement.films.then_some(true),
-        events: Some(displacement.events),
-        stop: Some(RawStop {
-            breakthrough: Some(stop.breakthrough),
-            saturation: stop.saturation,
-            capillary_pressure: stop.capillary_pressure,
-            injected: stop.injected,
-        }),
-        dynamic: displacement.dynamic.map(raw_dynamic),
-        initial: displacement.initial.as_ref().map(|start| start.file.clone()),
-        ..network
     }
 }

@@ -1,6 +1,6 @@
 //! `[network.dynamic]`: what drives a displacement in time.
 
-use super::table::{Events, RawDynamic, RawNetwork};
+use super::table::{Events, RawNetwork};
 use crate::input::Checker;
 
 /// What drives a displacement in time.
@@ -27,13 +27,9 @@ pub enum Drive {
 /// Default of the largest number of pore volumes per step.
 pub const DEFAULT_LARGEST_STEP: f64 = 0.01;
 
-/// Checks `[network.dynamic]` and related keys.
-pub(super) fn drive(
-    checker: &mut Checker,
-    raw: &RawNetwork,
-    dynamic: &RawDynamic,
-    is_cycle: bool,
-) -> Option<DynamicDrive> {
+/// Checks `[network.dynamic]`, if there is one, and related keys.
+pub(super) fn drive(checker: &mut Checker, raw: &mut RawNetwork, is_cycle: bool) -> Option<DynamicDrive> {
+    let dynamic = raw.dynamic.as_mut()?;
     let before = checker.problems.len();
     if raw.initial.is_some() {
         checker.refuse(
@@ -89,21 +85,7 @@ pub(super) fn drive(
             help,
         );
     }
-    let largest_step = dynamic.largest_step.unwrap_or(DEFAULT_LARGEST_STEP);
+    let largest_step = *dynamic.largest_step.get_or_insert(DEFAULT_LARGEST_STEP);
     let initial_saturation = dynamic.initial_saturation;
     (checker.problems.len() == before).then_some(DynamicDrive { drive: drive?, largest_step, initial_saturation })
-}
-
-/// The table of a drive.
-pub(super) fn raw_dynamic(dynamic: DynamicDrive) -> RawDynamic {
-    let (rate, pressure_drop) = match dynamic.drive {
-        Drive::Rate(rate) => (Some(rate), None),
-        Drive::PressureDrop(pressure) => (None, Some(pressure)),
-    };
-    RawDynamic {
-        rate,
-        pressure_drop,
-        largest_step: Some(dynamic.largest_step),
-        initial_saturation: dynamic.initial_saturation,
-    }
 }

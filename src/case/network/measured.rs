@@ -29,18 +29,16 @@ pub struct MeasuredThroat {
     pub entry_curvature: f64,
 }
 
-/// The case with the measured values from its file, if it names one.
-pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder: &Path) -> RawNetwork {
-    let mut completed = raw.clone();
-    let Some(file) = completed.measured.take() else { return completed };
+/// Replaces the file of measured values, if there is one, by the values.
+pub(in crate::case) fn read(checker: &mut Checker, raw: &mut RawNetwork, folder: &Path) {
+    let Some(file) = raw.measured.take() else { return };
     const PATH: &str = "network.measured";
     if raw.measured_throats.is_some() {
-        checker.refuse(
+        return checker.refuse(
             PATH,
             "measured values are given twice, by this file and by [network.measured-throats]",
             "keep one of both",
         );
-        return completed;
     }
     let path = folder.join(&file);
     let help = "name the measured.json of `meniscus network verify`, relative to the case file";
@@ -50,10 +48,9 @@ pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder
             Err(error) => {
                 checker.refuse(PATH, format!("{} is not a list of measured throats: {error}", path.display()), help)
             }
-            Ok(measured) => completed.measured_throats = Some(table(&measured)),
+            Ok(measured) => raw.measured_throats = Some(table(&measured)),
         },
     }
-    completed
 }
 
 /// The values as a table of a case.

@@ -1,13 +1,11 @@
 //! `[network]`: a pore network. The checks of its parts together, and the table of a checked network.
 
-use super::displacement::{
-    NetworkDisplacement, displacement, raw_displacement, refuse_other_sides, refuse_without_inlet,
-};
+use super::displacement::{NetworkDisplacement, displacement, refuse_other_sides, refuse_without_inlet};
 use super::measured::{self, Measured};
-use super::region::{Region, Tables, raw_region, refuse_tables, region};
+use super::region::{Region, Tables, refuse_tables, region};
 use super::state::Start;
-use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides};
-use crate::case::fluid::{Fluid, RawFluid, RawInterface, RawPhases, fluid};
+use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawRegion};
+use crate::case::fluid::{Fluid, RawPhases, fluid};
 use crate::case::side::{SIDES, Side, SideName, Sides};
 use crate::case::wetting::{self, WettingPatch};
 use crate::geometry::spec::GeometrySpec;
@@ -62,18 +60,19 @@ pub struct NetworkInterface {
 /// Default persistence ratio.
 pub(crate) const DEFAULT_PERSISTENCE: f64 = 0.95;
 
-/// Checks `[network]`; `geometry` is missing if it was wrong.
+/// Checks `[network]` and sets its defaults; `geometry` is missing if it was wrong.
 pub(in crate::case) fn network(
     checker: &mut Checker,
-    raw: &RawNetwork,
+    raw: &mut RawNetwork,
     geometry: Option<&GeometrySpec>,
     start: Option<Start>,
 ) -> Option<PoreNetwork> {
     let sides = sides(checker, raw);
-    let phases = raw.phases.clone().unwrap_or_default();
+    let none = &mut RawPhases::default();
+    let phases = raw.phases.as_mut().unwrap_or(none);
     let [wetting, non_wetting] =
-        [("wetting", phases.wetting), ("non-wetting", phases.non_wetting)].map(|(name, raw)| match raw {
-            Some(raw) => fluid(checker, &format!("network.phases.{name}"), &raw).map(Some),
+        [("wetting", &mut phases.wetting), ("non-wetting", &mut phases.non_wetting)].map(|(name, raw)| match raw {
+            Some(raw) => fluid(checker, &format!("network.phases.{name}"), raw).map(Some),
             None => Some(None),
         });
     let interface = interface(checker, raw, sides.as_ref(), geometry);
@@ -95,6 +94,7 @@ pub(in crate::case) fn network(
         None
     };
     let region = region(checker, raw, sides.as_ref(), geometry);
+    raw.region = region.map(|Region { min, max }| RawRegion { min: Some(min), max: Some(max), extent: None });
     let given = raw.output.clone().unwrap_or_default();
     let tables = Tables { swof: given.swof.unwrap_or_default(), sgof: given.sgof.unwrap_or_default() };
     refuse_tables(checker, raw, tables);
@@ -106,7 +106,7 @@ pub(in crate::case) fn network(
         wetting: wetting?,
         non_wetting: non_wetting?,
         interface: interface?,
-        persistence: raw.persistence.unwrap_or(DEFAULT_PERSISTENCE),
+        persistence: *raw.persistence.get_or_insert(DEFAULT_PERSISTENCE),
         measured: match measured {
             Some(measured) => Some(measured?),
             None => None,
@@ -118,10 +118,10 @@ pub(in crate::case) fn network(
 }
 
 /// The kinds of all four sides; `None` if they are incompatible.
-fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
+fn sides(checker: &mut Checker, raw: &mut RawNetwork) -> Option<Sides> {
     let before = checker.problems.len();
-    let given = raw.sides.clone().unwrap_or_default();
-    let given = [given.left, given.right, given.bottom, given.top];
+    let table = raw.sides.get_or_insert_default();
+    let given = [table.left, table.right, table.bottom, table.top];
     let mut kinds = given.map(|side| match side {
         Some(RawNetworkSide::Periodic) => Side::Periodic,
         Some(RawNetworkSide::Wall) | None => Side::Wall,
@@ -168,6 +168,12 @@ fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
             }
         }
     }
+    let closed = |number: usize| match kinds[number] {
+        Side::Periodic => Some(RawNetworkSide::Periodic),
+        Side::Wall => Some(RawNetworkSide::Wall),
+        _ => None,
+    };
+    *table = RawNetworkSides { left: closed(0), right: closed(1), bottom: closed(2), top: closed(3) };
     let [left, right, bottom, top] = kinds;
     (checker.problems.len() == before).then_some(Sides { left, right, bottom, top })
 }
@@ -175,7 +181,7 @@ fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
 /// Tension and angles: both, or neither without a displacement. The outer option is missing if a mistake was found.
 fn interface(
     checker: &mut Checker,
-    raw: &RawNetwork,
+    raw: &mut RawNetwork,
     sides: Option<&Sides>,
     geometry: Option<&GeometrySpec>,
 ) -> Option<Option<NetworkInterface>> {
@@ -189,10 +195,10 @@ fn interface(
     if raw.wetting.is_none() {
         checker.require::<()>("network.wetting", None, "[network.wetting.young] with contact-angle-deg");
     }
-    let model = wetting::model(checker, "network.wetting", raw.wetting.as_ref(), tension)?;
+    let model = wetting::model(checker, "network.wetting", raw.wetting.as_mut(), tension)?;
     let model = static_model(checker, model);
     let patches = match model {
-        Some(model) => wetting::patches(checker, "network.wetting", raw.wetting.as_ref(), model, sides, geometry),
+        Some(model) => wetting::patches(checker, "network.wetting", raw.wetting.as_mut(), model, sides, geometry),
         None => Vec::new(),
     };
     for (index, patch) in raw.wetting.iter().flat_map(|raw| &raw.patches).flatten().enumerate() {
@@ -219,35 +225,4 @@ fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
         format!("take [network.wetting.young] with the static angle, contact-angle-deg = {angle:.1}"),
     );
     None
-}
-
-/// The network as a table.
-pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
-    let sides = network.sides.each();
-    let with = |kind| sides.iter().zip(SideName::ALL).find(|(side, _)| **side == kind).map(|(_, name)| name);
-    let [left, right, bottom, top] = sides.map(|side| match side {
-        Side::Periodic => Some(RawNetworkSide::Periodic),
-        Side::Wall => Some(RawNetworkSide::Wall),
-        _ => None,
-    });
-    let has_phase = network.wetting.is_some() || network.non_wetting.is_some();
-    let interface = network.interface.as_ref();
-    let none = RawNetwork {
-        inlet: with(Side::Inlet),
-        outlet: with(Side::Outlet),
-        sides: Some(RawNetworkSides { left, right, bottom, top }),
-        phases: has_phase.then(|| RawPhases {
-            wetting: network.wetting.map(RawFluid::from),
-            non_wetting: network.non_wetting.map(RawFluid::from),
-        }),
-        interface: interface.map(|interface| RawInterface { tension: Some(interface.tension) }),
-        wetting: interface.map(|interface| wetting::raw(&interface.wetting_model, &interface.patches)),
-        persistence: Some(network.persistence),
-        measured_throats: network.measured.as_ref().map(measured::table),
-        region: network.region.map(raw_region),
-        output: (!network.tables.is_empty()).then(|| network.tables.raw()),
-        ..RawNetwork::default()
-    };
-    let Some(displacement) = &network.displacement else { return none };
-    raw_displacement(displacement, none)
 }

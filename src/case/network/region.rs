@@ -1,6 +1,6 @@
 //! `[network.region]`, the region of saturations and porosity, and `[network.output]`.
 
-use super::table::{RawNetwork, RawNetworkOutput, RawRegion, RegionExtent};
+use super::table::{RawNetwork, RegionExtent};
 use crate::case::side::{Side, Sides};
 use crate::geometry::body::Body;
 use crate::geometry::spec::{GeometrySpec, SolidSide};
@@ -36,11 +36,6 @@ impl Tables {
     /// Whether there are none.
     pub(crate) fn is_empty(&self) -> bool {
         *self == Self::default()
-    }
-
-    /// The corresponding table.
-    pub(super) fn raw(self) -> RawNetworkOutput {
-        RawNetworkOutput { swof: self.swof.then_some(true), sgof: self.sgof.then_some(true) }
     }
 }
 
@@ -111,11 +106,6 @@ fn pack(checker: &mut Checker, geometry: &GeometrySpec, domain: Bounds, sides: &
         [0, 1].map(|axis| if inlet.is_none_or(|side| side / 2 == axis) { of_grain[axis] } else { of_domain[axis] })
     };
     Some(Region { min: end(ends.min.sup(&domain.min), domain.min), max: end(ends.max.inf(&domain.max), domain.max) })
-}
-
-/// The table of a region.
-pub(super) fn raw_region(region: Region) -> RawRegion {
-    RawRegion { min: Some(region.min), max: Some(region.max), extent: None }
 }
 
 /// Refuses saturation functions without a quasi-static displacement from an inlet to an outlet.

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::case::{Case, KeptGeometry, digest};
+use crate::case::{Case, KeptGeometry, Loaded};
 use crate::input::InputError;
 use crate::io::checksum::fnv1a;
+use crate::math;
 use crate::run::ensemble::{Costly, is_of_network, shared_by};
 use crate::study::definition::Study;
 use crate::study::measured;
@@ -68,8 +69,8 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
     let mut keys: Vec<Key> = Vec::new();
     let mut representatives = Vec::new();
     for (index, run) in runs(study).into_iter().enumerate() {
-        let mut case = match run.case(study, &kept) {
-            Ok(case) => case,
+        let Loaded { mut case, resolved, .. } = match run.case(study, &kept) {
+            Ok(loaded) => loaded,
             Err(error) => {
                 mistakes.add(error);
                 continue;
@@ -87,7 +88,7 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
         let shapes = case.geometry.digest();
         let complete = (!shapes_vary).then(|| case.clone());
         case.geometry.shapes = Vec::new();
-        let own = digest(&case, shapes).to_le_bytes();
+        let own = math::fnv1a(shapes, resolved.bytes()).to_le_bytes();
         let own = fnv1a(&[&own[..], &[costly.permeabilities.into(), costly.entry_pressures.into()]].concat());
         let known = complete.map(|complete| {
             let key = (shapes, shared_by(&complete));
@@ -128,7 +129,7 @@ impl Ensemble {
         let sample = &self.samples[index];
         match &sample.known {
             Some((case, ground)) => Ok((Arc::new(case.clone()), Some(*ground))),
-            None => Ok((Arc::new(sample.run.case(study, &self.kept)?), None)),
+            None => Ok((Arc::new(sample.run.case(study, &self.kept)?.case), None)),
         }
     }
 }
