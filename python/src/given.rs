@@ -71,14 +71,17 @@ impl Given {
 /// Parameters from a dict as JSON; the error names each that is invalid.
 fn read<T: serde::de::DeserializeOwned>(json: &str) -> Result<T, Refused> {
     let given: serde_json::Map<String, Value> = serde_json::from_str(json).map_err(|error| refused("", &error))?;
+    // A keyword of Python is a key with underscores.
+    let named = |key: &str| key.replace('_', "-");
     let alone = |(key, value): (&String, &Value)| {
-        let one = Value::Object([(key.clone(), value.clone())].into_iter().collect());
+        let one = Value::Object([(named(key), value.clone())].into_iter().collect());
         serde_json::from_value::<T>(one).err().map(|error| problem(key, &error))
     };
     let problems: Vec<Problem> = given.iter().filter_map(alone).collect();
     if !problems.is_empty() {
         return Err(Refusal::Options(problems).into());
     }
+    let given = given.into_iter().map(|(key, value)| (named(&key), value)).collect();
     serde_json::from_value(Value::Object(given)).map_err(|error| refused("", &error))
 }
 

@@ -16,7 +16,7 @@ const WHOLLY_WETTING: f64 = 0.0;
 
 /// The keys; absent ones have the default of the case file, except for the two above.
 #[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, rename_all = "kebab-case")]
 pub struct NetworkOptions {
     /// Persistence ratio above which two maxima of the wall distance are one pore.
     pub(crate) persistence: Option<f64>,

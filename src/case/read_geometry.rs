@@ -67,7 +67,7 @@ pub(super) fn read_geometry(
         return shapes::inline(checker, "geometry", raw).map(|spec| Imported { spec, depth: None, notes: Vec::new() });
     };
     shapes::refuse_keys_of_file(checker, raw);
-    let options = shapes::options(raw);
+    let options = Options::from(raw);
     let loaded = match origin {
         Origin::BuiltIn if file == Path::new(DEFAULT_SHAPES) => {
             shape_text("geometries/four-discs.toml", DEFAULT_SHAPES_TEXT, &options)

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use super::network::{RawNetworkSide, RawNetworkSides};
 use super::side::{Side, Sides};
 use super::sides::RawSides;
-use crate::geometry::import::{Beyond, Frame, Nested, Options, options};
+use crate::geometry::import::options::with_drawing_options;
+use crate::geometry::import::{Beyond, Frame, Nested, Options};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::input::tables::{Key, join, tables};
-use crate::input::{Checker, Problem};
+use crate::input::{Checker, Problem, Range};
 
 tables! {
     /// A shape file: domain and solids.
@@ -26,41 +27,13 @@ tables! {
         /// Depth of the chip (distance between floor and lid) in m (default: none); that of a case overrides it.
         pub depth: f64 => DEPTH,
     }
+}
 
+with_drawing_options! {
     /// Domain and solids of a case.
     pub(crate) struct RawGeometry {
         /// Shape file or drawing.
         pub file: PathBuf,
-        /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).
-        pub unit: String,
-        /// Drawing unit in m, instead of `unit`.
-        pub scale: f64 => options::SCALE,
-        /// Lower left and upper right corner in m of the part that becomes the domain (default: all).
-        pub window: [[f64; 2]; 2],
-        /// Layers of an SVG or DXF drawing (default: all).
-        pub layers: Vec<String>,
-        /// Gap below which the ends of lines in a DXF drawing are joined, in units of the drawing (default: 1e-6 of its size).
-        pub join_within: f64 => options::JOIN_WITHIN,
-        /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
-        pub threshold: f64 => options::THRESHOLD,
-        /// Side of a mask pixel in m (required for a mask).
-        pub pixel_size: f64 => options::PIXEL_SIZE,
-        /// Exchanges solid and pore of the file (default false).
-        pub invert: bool,
-        /// Reads polygons with vertices on a circle as discs (default true).
-        pub recognize_circles: bool,
-        /// Polygon corners with a turning angle below this many degrees become arcs; 0: none (default 20.0).
-        pub smooth_below_deg: f64 => options::SMOOTH_BELOW,
-        /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
-        pub columns: [usize; 3],
-        /// Separator of a disc list (default: any usual one).
-        pub separator: char,
-        /// The third column of a disc list is the diameter; required if its header names them (default false).
-        pub diameters: bool,
-        /// Whether the outline without fill around all others is the frame of the chip, with pore inside, or the rim of a solid plate (default: by layers and nesting).
-        pub frame: Frame,
-        /// Whether shapes of another color on larger ones, and outlines in others (on layers named as KLayout names those of GDS), are pore or solid; required there.
-        pub nested: Nested,
         /// Lower left corner of the domain in m (default: that of the file).
         pub min: [f64; 2],
         /// Upper right corner of the domain in m (default: that of the file).
@@ -155,51 +128,13 @@ pub(super) fn refuse_keys_of_file(checker: &mut Checker, raw: &RawGeometry) {
 
 /// Refuses keys of the import if there is no file.
 pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
-    let given = [
-        ("unit", raw.unit.is_some()),
-        ("scale", raw.scale.is_some()),
-        ("window", raw.window.is_some()),
-        ("layers", raw.layers.is_some()),
-        ("join-within", raw.join_within.is_some()),
-        ("threshold", raw.threshold.is_some()),
-        ("pixel-size", raw.pixel_size.is_some()),
-        ("invert", raw.invert.is_some()),
-        ("recognize-circles", raw.recognize_circles.is_some()),
-        ("smooth-below-deg", raw.smooth_below_deg.is_some()),
-        ("columns", raw.columns.is_some()),
-        ("separator", raw.separator.is_some()),
-        ("diameters", raw.diameters.is_some()),
-        ("frame", raw.frame.is_some()),
-        ("nested", raw.nested.is_some()),
-    ];
-    for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+    for (key, _) in Options::from(raw).given() {
         let message = format!("`{key}` controls how a file is read, and no `file` is given");
         checker.refuse(
             format!("geometry.{key}"),
             message,
             "shapes written here are in m: leave it out, or name a `file`",
         );
-    }
-}
-
-/// Import options of the file of a case.
-pub(super) fn options(raw: &RawGeometry) -> Options {
-    Options {
-        unit: raw.unit.clone(),
-        scale: raw.scale,
-        window: raw.window,
-        layers: raw.layers.clone(),
-        join_within: raw.join_within,
-        threshold: raw.threshold,
-        pixel_size: raw.pixel_size,
-        invert: raw.invert,
-        recognize_circles: raw.recognize_circles,
-        smooth_below_deg: raw.smooth_below_deg,
-        columns: raw.columns,
-        separator: raw.separator,
-        diameters: raw.diameters,
-        frame: raw.frame,
-        nested: raw.nested,
     }
 }
 

@@ -6,24 +6,12 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::import::drawing::{Drawing, Unit};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::units;
-use crate::input::Range;
 use crate::input::problem::Problem;
 use crate::input::tables::{Key, Value};
+use crate::input::{Checker, Range};
 
 /// Vertices with smaller angles than this, in degrees, belong to a smooth curve.
 pub(crate) const SMOOTH_BELOW_DEG: f64 = 20.0;
-
-/// Length of the drawing unit.
-pub(crate) const SCALE: Key = Key::positive("a length in m");
-/// Distance within which ends are joined.
-pub(crate) const JOIN_WITHIN: Key = Key::positive("a length in units of the drawing")
-    .help("leave it out to join ends that meet within 1e-6 of the drawing");
-/// Gray value that separates solid from pore.
-pub(crate) const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle");
-/// Side of a pixel.
-pub(crate) const PIXEL_SIZE: Key = SCALE;
-/// Angle of a smooth vertex.
-pub(crate) const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
 
 /// What the outline around all others of a drawing without fills is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -49,43 +37,73 @@ pub enum Nested {
 
 impl Value for Nested {}
 
-/// Keys of `[geometry]` besides `file`, and options of the command line.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Options {
-    /// Name of the drawing unit, as in `mm`.
-    pub unit: Option<String>,
-    /// Length of the drawing unit in m, instead of `unit`.
-    pub scale: Option<f64>,
-    /// Lower left and upper right corner of the domain in m.
-    pub window: Option<[[f64; 2]; 2]>,
-    /// Layers to read; all by default.
-    pub layers: Option<Vec<String>>,
-    /// Gap below which the ends of lines in a DXF drawing are joined, in units of the drawing.
-    pub join_within: Option<f64>,
-    /// Gray value that separates solid from pore, 0 (black) to 1 (white).
-    pub threshold: Option<f64>,
-    /// Side of a pixel in m.
-    pub pixel_size: Option<f64>,
-    /// Whether the drawn shapes are the pore and all else solid.
-    pub invert: Option<bool>,
-    /// Whether polygons whose vertices lie on a circle become discs (default yes).
-    pub recognize_circles: Option<bool>,
-    /// Vertices with smaller angles than this, in degrees, are points of a smooth curve; 0: none.
-    pub smooth_below_deg: Option<f64>,
-    /// Columns of x, y and radius in a list, counted from 0.
-    pub columns: Option<[usize; 3]>,
-    /// Separator of the columns of a list.
-    pub separator: Option<char>,
-    /// Whether the third column of a list holds diameters (default no).
-    pub diameters: Option<bool>,
-    /// What the outline around all others is, where a drawing leaves it open.
-    pub frame: Option<Frame>,
-    /// What shapes of another color on larger ones are, and outlines in others on layers of GDS.
-    pub nested: Option<Nested>,
+/// Declares a table that has, after its own keys, the options of a drawing, and its conversion to [`Options`].
+macro_rules! with_drawing_options {
+    (@options { $(#[$outer:meta])* $vis:vis struct $name:ident { $($own:tt)* } }
+        $($(#[$doc:meta])* $field:ident: $kind:ty $(=> $key:expr)?,)*
+    ) => {
+        $crate::input::tables::tables! {
+            $(#[$outer])*
+            $vis struct $name { $($own)* $($(#[$doc])* pub $field: $kind $(=> $key)?,)* }
+        }
+
+        impl From<&$name> for Options {
+            fn from(table: &$name) -> Self {
+                Self { $($field: table.$field.clone(),)* }
+            }
+        }
+    };
+    ($($table:tt)*) => {
+        $crate::geometry::import::options::with_drawing_options! {
+            @options { $($table)* }
+            /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).
+            unit: String,
+            /// Drawing unit in m, instead of `unit`.
+            scale: f64 => Key::positive("a length in m"),
+            /// Lower left and upper right corner in m of the part that becomes the domain (default: all).
+            window: [[f64; 2]; 2],
+            /// Layers of an SVG or DXF drawing (default: all).
+            layers: Vec<String>,
+            /// Gap below which the ends of lines in a DXF drawing are joined, in units of the drawing (default: 1e-6 of its size).
+            join_within: f64 => Key::positive("a length in units of the drawing")
+                .help("leave it out to join ends that meet within 1e-6 of the drawing"),
+            /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
+            threshold: f64 => Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle"),
+            /// Side of a mask pixel in m (required for a mask).
+            pixel_size: f64 => Key::positive("a length in m"),
+            /// Exchanges solid and pore of the file (default false).
+            invert: bool,
+            /// Reads polygons with vertices on a circle as discs (default true).
+            recognize_circles: bool,
+            /// Polygon corners with a turning angle below this many degrees become arcs; 0: none (default 20.0).
+            smooth_below_deg: f64 => Key::within("an angle in degrees", 0.0, 90.0).help("0: none"),
+            /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
+            columns: [usize; 3],
+            /// Separator of a disc list (default: any usual one).
+            separator: char,
+            /// The third column of a disc list is the diameter; required if its header names them (default false).
+            diameters: bool,
+            /// Whether the outline without fill around all others is the frame of the chip, with pore inside, or the rim of a solid plate (default: by layers and nesting).
+            frame: Frame,
+            /// Whether shapes of another color on larger ones, and outlines in others (on layers named as KLayout names those of GDS), are pore or solid; required there.
+            nested: Nested,
+        }
+    };
+}
+pub(crate) use with_drawing_options;
+
+with_drawing_options! {
+    /// How a drawing is read: keys of `[geometry]`, options of the command line.
+    pub struct Options {}
 }
 
 impl Options {
+    /// The given options, by key.
+    pub(crate) fn given(&self) -> toml::Table {
+        // Numbers, texts and lists of them can be written as TOML.
+        toml::Table::try_from(self).unwrap_or_default()
+    }
+
     /// Whether the drawn shapes are the pore.
     pub(crate) fn is_inverted(&self) -> bool {
         self.invert.unwrap_or(false)
@@ -134,34 +152,33 @@ impl Options {
     /// All problems of the options for a file of this format; the paths are keys, such as `unit`.
     pub(crate) fn problems(&self, format: Format) -> Vec<Problem> {
         let mut found = self.problems_of_values();
-        let mut misplaced = |key: &str, is_given: bool, belongs: &[Format], of: &str| {
-            if is_given && !belongs.contains(&format) {
+        let given = self.given();
+        let mut misplaced = |key: &str, belongs: &[Format], of: &str| {
+            if given.contains_key(key) && !belongs.contains(&format) {
                 let help = format!("leave `{key}` out: it belongs to {of}");
                 found.push(Problem::new(key, format!("`{key}` does not apply to {}", format.name()), help));
             }
         };
-        misplaced("layers", self.layers.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
-        misplaced("join-within", self.join_within.is_some(), &[Format::Dxf], "DXF drawings");
-        misplaced("threshold", self.threshold.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
-        misplaced("pixel-size", self.pixel_size.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
-        misplaced("columns", self.columns.is_some(), &[Format::List], "lists of discs");
-        misplaced("diameters", self.diameters.is_some(), &[Format::List], "lists of discs");
-        misplaced("separator", self.separator.is_some(), &[Format::List], "lists of discs");
-        misplaced("frame", self.frame.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
-        misplaced("nested", self.nested.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
+        misplaced("layers", &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
+        misplaced("join-within", &[Format::Dxf], "DXF drawings");
+        misplaced("threshold", &[Format::Mask], "masks (PNG, TIFF)");
+        misplaced("pixel-size", &[Format::Mask], "masks (PNG, TIFF)");
+        misplaced("columns", &[Format::List], "lists of discs");
+        misplaced("diameters", &[Format::List], "lists of discs");
+        misplaced("separator", &[Format::List], "lists of discs");
+        misplaced("frame", &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
+        misplaced("nested", &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
         let drawn = [Format::Wkt, Format::GeoJson, Format::Shapefile, Format::Svg, Format::Dxf, Format::Mask];
-        misplaced("recognize-circles", self.recognize_circles.is_some(), &drawn, "drawings with polygons");
-        misplaced("smooth-below-deg", self.smooth_below_deg.is_some(), &drawn, "drawings with polygons");
+        misplaced("recognize-circles", &drawn, "drawings with polygons");
+        misplaced("smooth-below-deg", &drawn, "drawings with polygons");
         if format == Format::Toml {
-            for (key, is_given) in [("unit", self.unit.is_some()), ("scale", self.scale.is_some())] {
-                if is_given {
-                    let message = format!("`{key}` does not apply to a TOML shape file");
-                    found.push(Problem::new(key, message, "shape files in TOML are in m"));
-                }
+            for key in ["unit", "scale"].into_iter().filter(|key| given.contains_key(*key)) {
+                let message = format!("`{key}` does not apply to a TOML shape file");
+                found.push(Problem::new(key, message, "shape files in TOML are in m"));
             }
         }
         if format == Format::Mask {
-            if let Some(key) = self.unit.as_ref().map(|_| "unit").or(self.scale.map(|_| "scale")) {
+            if let Some(key) = ["unit", "scale"].into_iter().find(|key| given.contains_key(*key)) {
                 found.push(Problem::new(key, format!("`{key}` does not apply to a mask"), "give `pixel-size` in m"));
             }
             if self.pixel_size.is_none() {
@@ -173,19 +190,10 @@ impl Options {
     }
 
     fn problems_of_values(&self) -> Vec<Problem> {
-        let mut found = Vec::new();
+        let mut checker = Checker::default();
+        self.clone().in_range(&mut checker, "");
+        let mut found = checker.problems;
         let mut refuse = |key: &str, message: String, help: &str| found.push(Problem::new(key, message, help));
-        for (key, rule, value) in [
-            ("scale", SCALE, self.scale),
-            ("pixel-size", PIXEL_SIZE, self.pixel_size),
-            ("join-within", JOIN_WITHIN, self.join_within),
-            ("threshold", THRESHOLD, self.threshold),
-            ("smooth-below-deg", SMOOTH_BELOW, self.smooth_below_deg),
-        ] {
-            if let Some(message) = value.and_then(|value| rule.misfit(value)) {
-                refuse(key, message, rule.help);
-            }
-        }
         if let Some(name) = &self.unit {
             if self.scale.is_some() {
                 refuse("scale", "`unit` and `scale` are both given".into(), "keep one of them");
