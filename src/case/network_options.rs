@@ -6,7 +6,6 @@ use super::fluid::RawInterface;
 use super::network::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
 use super::side::SideName;
 use super::wetting::RawWetting;
-use crate::input::tables::Words;
 use crate::wetting::{Wetting, Young};
 
 /// Default tension in N/m: pressures are then those per N/m of tension.
@@ -48,15 +47,29 @@ impl NetworkOptions {
 
     /// The table `[network]` of a case.
     pub(crate) fn table(&self) -> RawNetwork {
+        let with_interface = |given: Option<f64>, default| self.has_interface().then(|| given.unwrap_or(default));
+        self.keys(with_interface(self.angle_deg, WHOLLY_WETTING), with_interface(self.tension, UNIT_TENSION))
+    }
+
+    /// The same as overrides of a case file that has `[network]`.
+    pub(crate) fn overrides(&self) -> Vec<String> {
+        // Numbers, words and tables of them can be written as TOML.
+        let keys = toml::Value::try_from(self.keys(self.angle_deg, self.tension));
+        let mut overrides = Vec::new();
+        collect("network".to_owned(), &keys.unwrap_or(toml::Value::Table(toml::Table::new())), &mut overrides);
+        overrides.extend(self.depth.map(|depth| format!("geometry.depth={depth}")));
+        overrides
+    }
+
+    fn keys(&self, contact_angle_deg: Option<f64>, tension: Option<f64>) -> RawNetwork {
         let [x, y] = self.periodic.map(|is_periodic| is_periodic.then_some(RawNetworkSide::Periodic));
-        let contact_angle_deg = self.angle_deg.unwrap_or(WHOLLY_WETTING);
-        let has_interface = self.has_interface();
+        let young = |contact_angle_deg| RawWetting::of(&Wetting::Young(Young { contact_angle_deg }), None);
         RawNetwork {
             inlet: self.inlet,
             outlet: self.outlet,
             sides: Some(RawNetworkSides { left: x, right: x, bottom: y, top: y }),
-            interface: has_interface.then(|| RawInterface { tension: Some(self.tension.unwrap_or(UNIT_TENSION)) }),
-            wetting: has_interface.then(|| RawWetting::of(&Wetting::Young(Young { contact_angle_deg }), None)),
+            interface: tension.map(|tension| RawInterface { tension: Some(tension) }),
+            wetting: contact_angle_deg.map(young),
             process: self.process,
             cycles: self.cycles,
             trapping: self.trapping,
@@ -64,25 +77,14 @@ impl NetworkOptions {
             ..RawNetwork::default()
         }
     }
+}
 
-    /// The same as overrides of a case file that has `[network]`.
-    pub(crate) fn overrides(&self) -> Vec<String> {
-        let name = |side: SideName| format!("\"{}\"", side.word());
-        let process = |process: RawProcess| format!("\"{}\"", process.word());
-        let given = [
-            ("persistence", self.persistence.map(|value| value.to_string())),
-            ("wetting.young.contact-angle-deg", self.angle_deg.map(|value| value.to_string())),
-            ("interface.tension", self.tension.map(|value| value.to_string())),
-            ("inlet", self.inlet.map(name)),
-            ("outlet", self.outlet.map(name)),
-            ("process", self.process.map(process)),
-            ("cycles", self.cycles.map(|value| value.to_string())),
-            ("trapping", self.trapping.map(|value| value.to_string())),
-        ];
-        let given = given.into_iter().filter_map(|(key, value)| Some(format!("network.{key}={}", value?)));
-        let given = given.chain(self.depth.map(|depth| format!("geometry.depth={depth}")));
-        let axes = [["left", "right"], ["bottom", "top"]].into_iter().zip(self.periodic);
-        let periodic = axes.filter(|(_, is_periodic)| *is_periodic).flat_map(|(sides, _)| sides);
-        given.chain(periodic.map(|side| format!("network.sides.{side}=\"periodic\""))).collect()
+/// Overrides with the values in a table at the key path `path`.
+fn collect(path: String, value: &toml::Value, overrides: &mut Vec<String>) {
+    match value {
+        toml::Value::Table(table) => {
+            table.iter().for_each(|(key, value)| collect(format!("{path}.{key}"), value, overrides))
+        }
+        value => overrides.push(format!("{path}={value}")),
     }
 }

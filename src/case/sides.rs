@@ -3,7 +3,7 @@
 use super::open::RawOpenSides;
 use super::side::{Side, Sides};
 use crate::input::Checker;
-use crate::input::tables::{Key, tables};
+use crate::input::tables::{Key, checked_tables, tables};
 
 tables! {
     /// The four sides of the domain.
@@ -33,23 +33,16 @@ tables! {
         /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub top: f64,
     }
+}
 
+checked_tables! {
     /// Properties of all walls, those of shapes and those at the sides.
-    pub(crate) struct RawWalls {
+    pub struct RawWalls for Walls {
         /// Navier slip length of all walls in m (default 0.0).
         pub slip_length: f64 => Key::not_negative("a slip length in m"),
         /// Slip length near contact lines in m; needs a wetting model (default: `slip-length`, else one spacing).
         pub line_slip_length: f64 => Key::not_negative("a slip length in m"),
     }
-}
-
-/// Properties of all walls, those of shapes and those at the sides.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct Walls {
-    /// Navier's slip length in m.
-    pub slip_length: f64,
-    /// The same near contact lines.
-    pub line_slip_length: f64,
 }
 
 /// The kinds of the sides.

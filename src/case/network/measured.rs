@@ -2,32 +2,36 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::table::{RawMeasured, RawMeasuredThroat, RawNetwork};
+use super::table::RawNetwork;
 use crate::input::Checker;
+use crate::input::tables::Value;
 
-/// Measured entry pressures of throats.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// Measured entry pressures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Measured {
-    /// Identifies the geometry, as in `network.json`.
+    /// Hash of the geometry, as in `network.json`.
     pub geometry_hash: String,
-    /// The throats.
+    /// The measured throats.
     pub throats: Vec<MeasuredThroat>,
 }
 
-/// A measured throat. Curvatures are those of the meniscus, above 0 if it bulges into the displaced phase.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// A throat whose entry pressure was measured. Curvatures are those of the meniscus, above 0 if it bulges into the displaced phase.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct MeasuredThroat {
-    /// Index among all throats of the network, including those that the merge removes.
+    /// Index of the throat before the merge.
     pub index: usize,
-    /// Curvature by the formula in 1/m.
+    /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
     pub formula_curvature: f64,
-    /// Measured curvature in 1/m.
+    /// Measured entry curvature in 1/m.
     pub entry_curvature: f64,
 }
+
+impl Value for Measured {}
 
 /// Replaces the file of measured values, if there is one, by the values.
 pub(in crate::case) fn read(checker: &mut Checker, raw: &mut RawNetwork, folder: &Path) {
@@ -48,33 +52,7 @@ pub(in crate::case) fn read(checker: &mut Checker, raw: &mut RawNetwork, folder:
             Err(error) => {
                 checker.refuse(PATH, format!("{} is not a list of measured throats: {error}", path.display()), help)
             }
-            Ok(measured) => raw.measured_throats = Some(table(&measured)),
+            Ok(measured) => raw.measured_throats = Some(measured),
         },
     }
-}
-
-/// The values as a table of a case.
-pub(super) fn table(measured: &Measured) -> RawMeasured {
-    let throat = |one: &MeasuredThroat| RawMeasuredThroat {
-        index: Some(one.index),
-        formula_curvature: Some(one.formula_curvature),
-        entry_curvature: Some(one.entry_curvature),
-    };
-    RawMeasured {
-        geometry_hash: Some(measured.geometry_hash.clone()),
-        throats: Some(measured.throats.iter().map(throat).collect()),
-    }
-}
-
-/// The values, `None` if one is missing.
-pub(super) fn checked(raw: &RawMeasured) -> Option<Measured> {
-    let throat = |raw: &RawMeasuredThroat| {
-        Some(MeasuredThroat {
-            index: raw.index?,
-            formula_curvature: raw.formula_curvature?,
-            entry_curvature: raw.entry_curvature?,
-        })
-    };
-    let throats: Option<Vec<_>> = raw.throats.iter().flatten().map(throat).collect();
-    Some(Measured { geometry_hash: raw.geometry_hash.clone()?, throats: throats? })
 }

@@ -1,7 +1,7 @@
 //! `[network]`: a pore network. The checks of its parts together, and the table of a checked network.
 
 use super::displacement::{NetworkDisplacement, displacement, refuse_other_sides, refuse_without_inlet};
-use super::measured::{self, Measured};
+use super::measured::Measured;
 use super::region::{Region, Tables, refuse_tables, region};
 use super::state::Start;
 use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawRegion};
@@ -76,7 +76,6 @@ pub(in crate::case) fn network(
             None => Some(None),
         });
     let interface = interface(checker, raw, sides.as_ref(), geometry);
-    let measured = raw.measured_throats.as_ref().map(measured::checked);
     if raw.dynamic.is_some() && raw.measured_throats.is_some() {
         checker.refuse(
             "network.measured",
@@ -107,10 +106,7 @@ pub(in crate::case) fn network(
         non_wetting: non_wetting?,
         interface: interface?,
         persistence: *raw.persistence.get_or_insert(DEFAULT_PERSISTENCE),
-        measured: match measured {
-            Some(measured) => Some(measured?),
-            None => None,
-        },
+        measured: raw.measured_throats.clone(),
         displacement,
         region,
         tables,

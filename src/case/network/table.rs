@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::measured::Measured;
 use crate::case::fluid::{RawInterface, RawPhases};
 use crate::case::side::SideName;
 use crate::case::wetting::RawWetting;
@@ -39,7 +40,7 @@ tables! {
         /// Measured entry pressures: `measured.json` of `meniscus network verify` (default: those of the formula).
         pub measured: PathBuf,
         /// Contents of a file of measured entry pressures, in a resolved case.
-        pub measured_throats: RawMeasured,
+        pub measured_throats: Measured,
         /// Criteria that end the displacement or each drainage of a cycle; the first one met counts.
         pub stop: RawStop,
         /// File with the initial state, of a network or a direct simulation; not with `dynamic` (default: full of the
@@ -95,24 +96,6 @@ tables! {
         /// Initial saturation of the wetting phase: the invading phase fills part of the pores that are open at the inlet and completes them first (default:
         /// these pores are full).
         pub initial_saturation: f64 => Key::within("a saturation", 0.0, 1.0),
-    }
-
-    /// Measured entry pressures.
-    pub(crate) struct RawMeasured {
-        /// Hash of the geometry, as in `network.json`.
-        pub geometry_hash: String => Key::required("geometry-hash = \"...\" as in network.json"),
-        /// The measured throats.
-        pub throats: Vec<RawMeasuredThroat>,
-    }
-
-    /// A throat whose entry pressure was measured.
-    pub(crate) struct RawMeasuredThroat {
-        /// Index of the throat before the merge.
-        pub index: usize => Key::required("index = 12"),
-        /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
-        pub formula_curvature: f64 => Key::required("formula-curvature = 4.0e4 # 1/m"),
-        /// Measured entry curvature in 1/m.
-        pub entry_curvature: f64 => Key::required("entry-curvature = 4.0e4 # 1/m"),
     }
 
     /// Criteria that end a displacement; the first one met counts.
