@@ -8,7 +8,6 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use crate::case::Side;
-use crate::case::network::Tables;
 use crate::interface::depth::Depth;
 use crate::math::Bounds;
 use crate::snapshot::Lines;
@@ -46,8 +45,6 @@ pub struct Configuration {
     pub sides: [Side; 4],
     /// The region of saturations and porosity, if it is not the whole domain.
     pub region: Option<Bounds>,
-    /// Saturation functions to write.
-    pub(crate) tables: Tables,
 }
 
 impl Configuration {

@@ -148,7 +148,6 @@ fn assemble(
         geometry_hash: ground.hash.clone(),
         sides: wanted.sides.each(),
         region: wanted.region.map(Region::bounds),
-        tables: wanted.tables,
     };
     let counted = |displacement: &Displacement| match config.region {
         Some(region) => Counted::within(displacement, region, config.periods()),

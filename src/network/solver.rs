@@ -12,7 +12,7 @@ use super::displacement::EventKind;
 use super::measures::Costly;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use super::{flow, layers, measures, openpnm, pictures, reservoir, state, summary, tables, warnings};
+use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
 use crate::diagram::Diagram;
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
 use crate::solver::{
@@ -170,7 +170,6 @@ impl Solver for NetworkSolver {
         let cycles = self.model.cycles.as_ref();
         results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(&self.model.config, cycles)));
         results.documents.extend(state::documents(&self.model));
-        results.documents.extend(reservoir::documents(&self.model));
         results.tables.extend(flow::table(&self.model));
         results
     }

@@ -7,7 +7,7 @@ use crate::case::{Case, Fluid, Model, on_plates};
 use crate::interface::depth::Depth;
 use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, FluidPhase};
-use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};
+use crate::network::displacement::{Conditions, Displacement, EventKind};
 use crate::network::graph::Throat;
 use crate::network::setup::{SetupError, build_quasi_static};
 use crate::network::solver::NetworkSolver;
@@ -48,8 +48,6 @@ pub struct Subject {
     pub to_breakthrough: Option<(Vec<Entry>, f64)>,
     /// Throats through which menisci overlapped in the first half cycle.
     pub overlapped: Vec<usize>,
-    /// Events of the first half cycle.
-    pub events: Vec<Event>,
     fresh: Displacement,
 }
 
@@ -72,8 +70,6 @@ impl Subject {
         let config = solver.config();
         let fresh = Displacement::new(&config.network, &config.pores, conditions.clone());
         let overlaps = history.0.iter().filter(|entry| entry.kind == EventKind::Overlap);
-        let displacement = solver.cycles().map(|cycles| cycles.displacement().clone());
-        let events = displacement.into_iter().flatten().take(history.0.len()).collect();
         Ok(Self {
             tension: interface.tension,
             fluids: [wanted.wetting, wanted.non_wetting],
@@ -81,7 +77,6 @@ impl Subject {
             invading,
             conditions,
             overlapped: overlaps.filter_map(|entry| entry.throat).collect(),
-            events,
             to_breakthrough: history.1.map(|(count, applied)| (history.0[..count].to_vec(), applied)),
             fresh,
             solver,
@@ -113,16 +108,6 @@ impl Subject {
     pub(crate) fn has_network_films(&self, angle: f64) -> bool {
         let angle = if self.invading == FluidPhase::NonWetting { angle } else { PI - angle };
         self.chip.is_none_or(|Chip { plates, depth }| Depth::new(depth.distance(), angle, plates).has_films_of(&depth))
-    }
-
-    /// The menisci of an event of the first half cycle.
-    pub(crate) fn scene(&self, event: &Event) -> Scene {
-        self.fresh.scene(event.involved)
-    }
-
-    /// Area in m² of the elements that an event fills.
-    pub(crate) fn filled_area(&self, event: &Event) -> f64 {
-        event.elements.iter().map(|&element| self.fresh.elements()[element].area).sum()
     }
 
     /// Hash of the geometry, as in `network.json`.

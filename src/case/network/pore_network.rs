@@ -2,7 +2,7 @@
 
 use super::displacement::{NetworkDisplacement, displacement, refuse_other_sides, refuse_without_inlet};
 use super::measured::Measured;
-use super::region::{Region, Tables, refuse_tables, region};
+use super::region::{Region, region};
 use super::state::Start;
 use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawRegion};
 use crate::case::fluid::{Fluid, RawPhases, fluid};
@@ -34,9 +34,6 @@ pub struct PoreNetwork {
     /// Where saturations and the porosity are taken; `None`: in the whole domain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) region: Option<Region>,
-    /// Further files.
-    #[serde(skip_serializing_if = "Tables::is_empty")]
-    pub(crate) tables: Tables,
 }
 
 impl PoreNetwork {
@@ -94,9 +91,6 @@ pub(in crate::case) fn network(
     };
     let region = region(checker, raw, sides.as_ref(), geometry);
     raw.region = region.map(|Region { min, max }| RawRegion { min: Some(min), max: Some(max), extent: None });
-    let given = raw.output.clone().unwrap_or_default();
-    let tables = Tables { swof: given.swof.unwrap_or_default(), sgof: given.sgof.unwrap_or_default() };
-    refuse_tables(checker, raw, tables);
     if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
         return None;
     }
@@ -109,7 +103,6 @@ pub(in crate::case) fn network(
         measured: raw.measured_throats.clone(),
         displacement,
         region,
-        tables,
     })
 }
 

@@ -1,4 +1,4 @@
-//! `[network.region]`, the region of saturations and porosity, and `[network.output]`.
+//! `[network.region]`, the region of saturations and porosity.
 
 use super::table::{RawNetwork, RegionExtent};
 use crate::case::side::{Side, Sides};
@@ -20,22 +20,6 @@ impl Region {
     /// The same as a box.
     pub(crate) fn bounds(self) -> Bounds {
         Bounds { min: self.min.into(), max: self.max.into() }
-    }
-}
-
-/// Saturation functions written as files for reservoir simulators.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-pub(crate) struct Tables {
-    /// Those of water and oil.
-    pub(crate) swof: bool,
-    /// Those of gas and liquid.
-    pub(crate) sgof: bool,
-}
-
-impl Tables {
-    /// Whether there are none.
-    pub(crate) fn is_empty(&self) -> bool {
-        *self == Self::default()
     }
 }
 
@@ -106,19 +90,4 @@ fn pack(checker: &mut Checker, geometry: &GeometrySpec, domain: Bounds, sides: &
         [0, 1].map(|axis| if inlet.is_none_or(|side| side / 2 == axis) { of_grain[axis] } else { of_domain[axis] })
     };
     Some(Region { min: end(ends.min.sup(&domain.min), domain.min), max: end(ends.max.inf(&domain.max), domain.max) })
-}
-
-/// Refuses saturation functions without a quasi-static displacement from an inlet to an outlet.
-pub(super) fn refuse_tables(checker: &mut Checker, raw: &RawNetwork, tables: Tables) {
-    if tables.is_empty() || raw.inlet.is_none() {
-        return;
-    }
-    if raw.outlet.is_none() {
-        let message = "relative permeabilities need an outlet, and there is none";
-        checker.refuse("network.output", message, "add outlet = \"right\", say, or leave out [network.output]");
-    }
-    if raw.dynamic.is_some() {
-        let message = "saturation functions belong to quasi-static displacement, and [network.dynamic] is given";
-        checker.refuse("network.output", message, "leave out [network.output], or [network.dynamic]");
-    }
 }
