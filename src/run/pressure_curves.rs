@@ -1,6 +1,6 @@
 //! The capillary pressure curves of several network runs in one diagram, read from their files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::io::diagram::{DiagramError, svg};
@@ -22,8 +22,8 @@ struct Row {
 }
 
 /// The named curves of the runs in these folders, as SVG; `None` if no run has one.
-pub(crate) fn overlay(runs: &[(String, &Path)]) -> Result<Option<String>, DiagramError> {
-    let trace = |(name, folder): &(String, &Path)| {
+pub(crate) fn overlay(runs: &[(String, PathBuf)]) -> Result<Option<String>, DiagramError> {
+    let trace = |(name, folder): &(String, PathBuf)| {
         Some(Trace { name: name.clone(), stroke: Stroke::Full, points: curve(folder)? })
     };
     let traces: Vec<Trace> = runs.iter().filter_map(trace).collect();
@@ -84,7 +84,8 @@ mod tests {
         let stairs = [[1.0, 10.0], [0.5, 10.0], [0.5, 20.0], [0.25, 20.0], [0.25, 5.0], [0.375, 5.0], [0.75, 5.0]];
         assert_eq!(curve(folder.path()).unwrap(), stairs);
         let empty = tempfile::tempdir().unwrap();
-        let runs = [("angle = 40".to_owned(), folder.path()), ("angle = 60".to_owned(), empty.path())];
+        let runs =
+            [("angle = 40", &folder), ("angle = 60", &empty)].map(|(name, it)| (name.to_owned(), it.path().to_owned()));
         let drawn = overlay(&runs).unwrap().unwrap();
         assert!(drawn.contains("angle = 40") && !drawn.contains("angle = 60"));
         assert_eq!(overlay(&runs[1..]).unwrap(), None);

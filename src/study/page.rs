@@ -156,8 +156,7 @@ fn push_pictures(html: &mut String, results: &[RunResult]) {
 
 /// The parameters of a run with their values.
 fn caption(result: &RunResult) -> String {
-    let parameters = result.run.parameters.iter().map(|p| format!("{} = {}", p.name, shown(&p.value)));
-    escaped(&parameters.collect::<Vec<_>>().join(", "))
+    escaped(&result.run.values(|_| true))
 }
 
 /// The curves of network and direct simulation of each run; the whole comparison is in the folder of the run.

@@ -15,7 +15,6 @@ use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results};
 use super::run::PlannedRun;
 use super::table::{self, Table};
-use super::values::shown;
 use super::verdict::{Judgment, judgments};
 use crate::input::nearest;
 use crate::io::diagram::DiagramError;
@@ -78,15 +77,12 @@ fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder
 /// The capillary pressure curves of all complete runs, each named by the values in which runs differ; `None` if fewer than two have one.
 fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Result<Option<String>, ReportError> {
     let varies = |name: &str| results.iter().any(|result| result.run.value(name) != results[0].run.value(name));
-    let name = |result: &RunResult| {
-        // One column identifies the value of an axis.
-        let columns = study.axes.iter().filter_map(|axis| axis.columns.first()).map(|column| column.name.as_str());
-        let assignment = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
-        columns.filter(|name| varies(name)).filter_map(assignment).collect::<Vec<_>>().join(", ")
-    };
+    // One column identifies the value of an axis.
+    let is_first = |name: &str| study.axes.iter().any(|axis| axis.columns.first().is_some_and(|one| one.name == name));
     let complete = results.iter().filter(|result| study.compare.is_none() && result.state.report().is_some());
-    let runs: Vec<(String, PathBuf)> = complete.map(|result| (name(result), folder.run(&result.run.name))).collect();
-    let runs: Vec<(String, &Path)> = runs.iter().map(|(name, folder)| (name.clone(), folder.as_path())).collect();
+    let run =
+        |result: &RunResult| (result.run.values(|name| is_first(name) && varies(name)), folder.run(&result.run.name));
+    let runs: Vec<(String, PathBuf)> = complete.map(run).collect();
     Ok(if runs.len() > 1 { pressure_curves::overlay(&runs)? } else { None })
 }
 

@@ -7,7 +7,7 @@ use toml::Value;
 use super::base_case;
 use super::comparison::{self, DirectRun, NetworkRun, PlannedNetwork};
 use super::definition::{Assignment, Choice, Quantity, Study};
-use super::values::{number_of, same};
+use super::values::{number_of, same, shown};
 use crate::case::{Case, KeptGeometry, Loaded};
 use crate::input::{Document, InputError, Problem};
 use crate::io::checksum::fnv1a;
@@ -81,6 +81,17 @@ impl Run {
     /// The value of a parameter.
     pub(crate) fn value(&self, name: &str) -> Option<&Value> {
         self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
+    }
+
+    /// The values of some parameters as text.
+    pub(crate) fn values(&self, is_shown: impl Fn(&str) -> bool) -> String {
+        let parameters = self.parameters.iter().filter(|one| is_shown(&one.name));
+        parameters.map(|one| format!("{} = {}", one.name, shown(&one.value))).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The values along all axes except that of the samples, as text.
+    pub(crate) fn name_of_group(&self, study: &Study) -> String {
+        self.values(|name| study.sampling.as_ref().is_none_or(|sampling| !sampling.has(name)))
     }
 
     /// The value of a quantity in this run.

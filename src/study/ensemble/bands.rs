@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use super::engine::Engine;
-use super::plan::Ensemble;
 use super::statistics::{Group, SHARE_HEADS, SHARES, full};
-use super::store::{Done, Kept};
+use super::store::Done;
 use crate::analysis::samples::{mean, quantile};
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::io::diagram::svg;
 use crate::io::{FileError, atomic};
-use crate::run::ensemble::{Map, SATURATIONS};
-use crate::study::definition::{Sampling, Study};
+use crate::run::ensemble::{Map, Observed, SATURATIONS, write_map};
+use crate::study::definition::Sampling;
 use crate::study::table::Table;
 
 /// The figures of a group on the page.
@@ -55,15 +54,14 @@ impl Level {
 }
 
 /// The complete draws of a group.
-fn draws<'d>(ensemble: &Ensemble, done: &'d [Option<Done>], group: usize, sampling: &Sampling) -> Vec<&'d Kept> {
-    let of_group = ensemble.samples.iter().zip(done).filter(|(sample, _)| sample.group == group);
-    let kept: Vec<Option<&Kept>> =
-        of_group.map(|(_, done)| done.as_ref().and_then(|done| done.ended.as_ref().ok())).collect();
+fn draws<'d>(engine: &'d Engine<'_>, group: usize, sampling: &Sampling) -> Vec<&'d Observed> {
+    let of_group = engine.ensemble.samples.iter().zip(&engine.done).filter(|(sample, _)| sample.group == group);
+    let kept: Vec<Option<&Observed>> = of_group.map(|(_, done)| done.as_ref().and_then(Done::observed)).collect();
     kept.chunks(sampling.rows()).flat_map(|rows| rows.iter().take(sampling.draws()).flatten().copied()).collect()
 }
 
 /// The pressures of a half cycle at each saturation.
-fn levels(kept: &[&Kept], half_cycle: usize) -> Vec<Level> {
+fn levels(kept: &[&Observed], half_cycle: usize) -> Vec<Level> {
     let level = |k: usize| {
         let mut pressures: Vec<f64> = kept
             .iter()
@@ -80,18 +78,12 @@ fn levels(kept: &[&Kept], half_cycle: usize) -> Vec<Level> {
 ///
 /// # Errors
 /// [`FileError`] with the path and a remedy.
-pub(crate) fn write(
-    study: &Study,
-    ensemble: &Ensemble,
-    engine: &Engine<'_>,
-    maps: &[Map],
-    folder: &Path,
-) -> Result<Vec<Figures>, FileError> {
-    let Some(sampling) = &study.sampling else { return Ok(Vec::new()) };
+pub(crate) fn write(engine: &Engine<'_>, maps: &[Map], folder: &Path) -> Result<Vec<Figures>, FileError> {
+    let Some(sampling) = &engine.study.sampling else { return Ok(Vec::new()) };
     let mut all = Vec::new();
-    for (number, (group, map)) in ensemble.groups.iter().zip(maps).enumerate() {
+    for (number, (group, map)) in engine.ensemble.groups.iter().zip(maps).enumerate() {
         let suffix = if maps.len() > 1 { format!("-{}", number + 1) } else { String::new() };
-        let kept = draws(ensemble, &engine.done, number, sampling);
+        let kept = draws(engine, number, sampling);
         let mut figures = Figures { name: group.name.clone(), ..Figures::default() };
         if kept.is_empty() {
             all.push(figures);
@@ -111,7 +103,7 @@ pub(crate) fn write(
             let probability: Vec<f64> = (0..map.len()).map(invaded_fraction).collect();
             let values = if group.name.is_empty() { String::new() } else { format!(", {}", group.name) };
             let note = format!("{}, {} samples{values}", map.moment(), kept.len());
-            map.write(folder, &suffix, &probability, (&study.title, note))?;
+            write_map(map, &probability, folder, &suffix, &engine.study.title, note)?;
             figures.map = Some(format!("invasion{suffix}.png"));
         }
         all.push(figures);

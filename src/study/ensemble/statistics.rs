@@ -1,6 +1,5 @@
 //! Statistics of the samples of a study for each measure: moments, quantiles, Sobol indices, and their convergence with the number of samples.
 
-use super::plan::name_of_group;
 use crate::analysis::samples::{deviation, mean, quantile, sobol_indices};
 use crate::study::definition::{Input, Sampling, Study};
 use crate::study::results::{RunResult, measures};
@@ -56,7 +55,7 @@ pub(crate) struct Statistics {
 pub(crate) fn groups<'r>(study: &Study, results: &'r [RunResult]) -> Vec<Group<'r>> {
     let mut groups: Vec<Group> = Vec::new();
     for result in results {
-        let name = name_of_group(study, &result.run);
+        let name = result.run.name_of_group(study);
         match groups.iter_mut().find(|group| group.name == name) {
             Some(group) => group.results.push(result),
             None => groups.push(Group { name, results: vec![result] }),
