@@ -2,11 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::diagram::{Diagram, Stroke, Trace};
 use crate::io::diagram::{DiagramError, svg};
 
 /// Name of the diagram: its file is `capillary-pressure.svg`.
 pub(crate) const NAME: &str = "capillary-pressure";
+/// Its title, and what is along x and y.
+pub(crate) const TITLE: &str = "Capillary pressure over saturation";
+pub(crate) const LABELS: [&str; 2] = ["saturation of the wetting phase", "capillary pressure p_n - p_w in Pa"];
 /// With films, the curve at every pressure.
 const CURVE: &str = "capillary_pressure.csv";
 /// Otherwise saturations change only at events.
@@ -30,15 +33,7 @@ pub(crate) fn overlay(runs: &[(String, PathBuf)]) -> Result<Option<String>, Diag
     if traces.is_empty() {
         return Ok(None);
     }
-    let axis = |label| Axis { label, logarithmic: false };
-    svg(&Diagram {
-        name: NAME,
-        title: "Capillary pressure over saturation",
-        x: axis("saturation of the wetting phase"),
-        y: axis("capillary pressure p_n - p_w in Pa"),
-        map: None,
-        traces,
-    })
+    svg(&Diagram::linear(NAME, TITLE, LABELS, traces))
 }
 
 /// The curve of the quasi-static displacement in a folder, half cycles joined.

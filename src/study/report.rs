@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::convergence::{self, Convergence};
-use super::curve::{CurveError, svg};
+use super::curve::svg;
 use super::definition::Study;
 use super::ensemble::bands::{Figures, distribution};
-use super::ensemble::statistics::{groups, statistics};
+use super::ensemble::statistics::{FULL, SHORT, groups, statistics};
 use super::folder::StudyFolder;
+use super::measured;
 use super::page::{Content, page};
 use super::page_of_samples::Uncertainty;
 use super::resolution::Resolution;
@@ -28,10 +29,7 @@ pub enum ReportError {
     /// A file error.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A curve.
-    #[error("a curve cannot be drawn: {0}")]
-    Curve(#[from] CurveError),
-    /// The curves of all runs in one diagram.
+    /// A diagram.
     #[error(transparent)]
     Diagram(#[from] DiagramError),
 }
@@ -98,11 +96,14 @@ fn uncertainty<'f>(
     folder: &StudyFolder,
     figures: &'f [Figures],
 ) -> Result<Option<Uncertainty<'f>>, ReportError> {
-    let (Some(sampling), Some(statistics)) = (&study.sampling, statistics(study, results)) else { return Ok(None) };
+    let of = |style| statistics(study, results, style);
+    let (Some(sampling), Some(full), Some(statistics)) = (&study.sampling, of(FULL), of(SHORT)) else {
+        return Ok(None);
+    };
     let path = |name: &str| folder.root().join(name);
-    atomic::write(&path("quantiles.csv"), &statistics.quantiles.csv()?)?;
-    atomic::write(&path("convergence.csv"), &statistics.convergence.csv()?)?;
-    if let Some(indices) = &statistics.indices {
+    atomic::write(&path("quantiles.csv"), &full.quantiles.csv()?)?;
+    atomic::write(&path("convergence.csv"), &full.convergence.csv()?)?;
+    if let Some(indices) = &full.indices {
         atomic::write(&path("indices.csv"), &indices.csv()?)?;
     }
     let distribution = distribution(sampling, &groups(study, results), folder.root())?;
@@ -121,7 +122,7 @@ pub(crate) fn report_of(
     let resolution = Resolution::of(study, &results);
     let uncertainty = uncertainty(study, &results, folder, figures)?;
     let table = match &uncertainty {
-        Some(uncertainty) => uncertainty.statistics.short.clone(),
+        Some(uncertainty) => uncertainty.statistics.quantiles.clone(),
         None => table::short(study, &results, &resolution),
     };
     let path = |name: &str| folder.root().join(name);
@@ -168,11 +169,7 @@ fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
         return Vec::new();
     }
     let known: BTreeSet<&str> = there.keys().map(String::as_str).chain(RUN_NUMBERS).collect();
-    let expected = study.expectations.iter().map(|expected| &expected.measure);
-    let trends = study.trends.iter().map(|trend| &trend.measure);
-    let curves = study.report.curves.iter().flat_map(|curve| [&curve.x, &curve.y]);
-    let table = study.report.measures.iter().flatten();
-    let names: BTreeSet<&str> = expected.chain(trends).chain(curves).chain(table).map(String::as_str).collect();
+    let names: BTreeSet<&str> = measured::names(study).collect();
     let is_parameter = |name: &str| study.parameters().any(|column| column.name == name);
     let lost = names.into_iter().filter(|name| !known.contains(name) && !is_parameter(name));
     let message = |name: &str| match nearest(name, known.iter().copied()) {

@@ -6,10 +6,11 @@ use super::engine::Engine;
 use super::statistics::{Group, SHARE_HEADS, SHARES, full};
 use super::store::Done;
 use crate::analysis::samples::{mean, quantile};
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::diagram::{Diagram, Stroke, Trace};
 use crate::io::diagram::svg;
 use crate::io::{FileError, atomic};
 use crate::run::ensemble::{Map, Observed, SATURATIONS, write_map};
+use crate::run::pressure_curves::{LABELS, TITLE};
 use crate::study::definition::Sampling;
 use crate::study::table::Table;
 
@@ -124,15 +125,9 @@ pub(crate) fn distribution(sampling: &Sampling, groups: &[Group], folder: &Path)
         let points = values.into_iter().enumerate().flat_map(step).collect();
         Trace { name: group.name.clone(), stroke: Stroke::Full, points }
     };
-    let axis = |label| Axis { label, logarithmic: false };
-    let diagram = Diagram {
-        name: "breakthrough",
-        title: "Saturation at breakthrough",
-        x: axis("saturation of the invading phase at breakthrough"),
-        y: axis("share of the samples below"),
-        map: None,
-        traces: groups.iter().map(trace).collect(),
-    };
+    let labels = ["saturation of the invading phase at breakthrough", "share of the samples below"];
+    let traces = groups.iter().map(trace).collect();
+    let diagram = Diagram::linear("breakthrough", "Saturation at breakthrough", labels, traces);
     drawn(&diagram, folder, "breakthrough")
 }
 
@@ -177,13 +172,5 @@ fn diagram(processes: &[&'static str], halves: &[Vec<Level>]) -> Diagram {
         let points = quantiles.iter().map(|(saturation, q)| [*saturation, q[2]]).collect();
         traces.push(Trace { name: format!("{name}, median"), stroke: Stroke::Full, points });
     }
-    let axis = |label| Axis { label, logarithmic: false };
-    Diagram {
-        name: "band",
-        title: "Capillary pressure over saturation",
-        x: axis("saturation of the wetting phase"),
-        y: axis("capillary pressure p_n - p_w in Pa"),
-        map: None,
-        traces,
-    }
+    Diagram::linear("band", TITLE, LABELS, traces)
 }

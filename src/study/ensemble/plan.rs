@@ -57,7 +57,8 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
         return Ok(None);
     };
     let shapes_vary = shapes_vary(sampling);
-    let names = measured::names(study);
+    // A report without a list shows all measures.
+    let names = study.report.measures.is_some().then(|| measured::names(study).collect::<Vec<_>>());
     let mut ensemble = Ensemble {
         samples: Vec::new(),
         groups: Vec::new(),

@@ -51,8 +51,8 @@ fn decode(bytes: &[u8]) -> Option<Vec<Option<Done>>> {
     if fnv1a(content).to_le_bytes() != checksum {
         return None;
     }
-    let (version, rest) = postcard::take_from_bytes::<u32>(content.strip_prefix(MAGIC)?).ok()?;
-    if version == VERSION { postcard::from_bytes(rest).ok() } else { None }
+    let (version, done): (u32, _) = postcard::from_bytes(content.strip_prefix(MAGIC)?).ok()?;
+    (version == VERSION).then_some(done)
 }
 
 /// Writes the finished samples.
@@ -61,10 +61,9 @@ fn decode(bytes: &[u8]) -> Option<Vec<Option<Done>>> {
 /// [`FileError`]; then the previous file still exists.
 pub(crate) fn save(folder: &Path, done: &[Option<Done>]) -> Result<(), FileError> {
     let path = path(folder);
-    let failed = |error: postcard::Error| FileError::Format { path: path.clone(), what: error.to_string() };
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend(postcard::to_stdvec(&VERSION).map_err(failed)?);
-    bytes.extend(postcard::to_stdvec(done).map_err(failed)?);
+    let content = postcard::to_stdvec(&(VERSION, done))
+        .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+    let mut bytes = [MAGIC.as_slice(), &content].concat();
     bytes.extend(fnv1a(&bytes).to_le_bytes());
     atomic::write(&path, &bytes)
 }
