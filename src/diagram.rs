@@ -1,10 +1,12 @@
 //! Diagrams as data: the history of a solver, drawn by other modules.
 
+use std::borrow::Cow;
+
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Quantity with its unit.
-    pub label: &'static str,
+    pub label: Cow<'static, str>,
     /// Whether the scale is logarithmic; values that are not above zero are then omitted.
     pub logarithmic: bool,
 }
@@ -22,6 +24,16 @@ pub enum Stroke {
     Dots,
     /// The area within a closed line, in a light tint of the color of the next line.
     Band,
+    /// The reference of the last line: dashed, of its color.
+    Reference,
+    /// An error bar of the last line.
+    Bar,
+    /// White dots, on which the last line has its points.
+    Blank,
+    /// Points of the last line.
+    Disc,
+    /// The same, hollow.
+    Ring,
 }
 
 /// A polyline.
@@ -54,7 +66,7 @@ pub struct Diagram {
     /// Its file is `diagram-NAME.svg`.
     pub name: &'static str,
     /// Title in one line.
-    pub title: &'static str,
+    pub title: Cow<'static, str>,
     /// The axis along x.
     pub x: Axis,
     /// The axis along y.
@@ -63,6 +75,19 @@ pub struct Diagram {
     pub map: Option<Map>,
     /// The lines.
     pub traces: Vec<Trace>,
+}
+
+impl Diagram {
+    /// A diagram of lines with linear axes of these labels.
+    pub(crate) fn linear(
+        name: &'static str,
+        title: &'static str,
+        labels: [&'static str; 2],
+        traces: Vec<Trace>,
+    ) -> Self {
+        let [x, y] = labels.map(|label| Axis { label: label.into(), logarithmic: false });
+        Self { name, title: title.into(), x, y, map: None, traces }
+    }
 }
 
 /// A color as red, green, blue.

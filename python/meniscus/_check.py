@@ -1,4 +1,4 @@
-"""What can be told of a case before it runs."""
+"""Checks of a case before a run."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from ._given import case_source, given, listener
 
 @dataclass(frozen=True)
 class Check:
-    """What a run would take, from its first steps."""
+    """The expected cost of a run, estimated from its first steps."""
 
     unknowns: int
     """Number of particles, nodes or pores."""
     steps: float
-    """Expected number of steps, or the most events of a network."""
+    """Expected number of steps, or the largest number of events of a network."""
     time_step_s: float
     """Time step in s."""
     limit: str
-    """The limit that rules the time step."""
+    """The limit that determines the time step."""
     duration_s: float
-    """Expected wall time in s with as many threads as the check had."""
+    """Expected wall time in s with the number of threads of the check."""
     memory_bytes: int | None
-    """Most memory of this process so far in bytes, other things in it included; None where the system does not tell."""
+    """Peak memory of this process so far in bytes, including everything else in it; None if the system does not report it."""
     warnings: list[str]
-    """What to know before a run."""
+    """Warnings before a run."""
     advice: dict[str, Any] | None
-    """What network and direct simulation would take and which can answer, by the names of ``meniscus check --json``; None where that is no question."""
+    """Cost of network and direct simulation, and which is applicable, as in ``meniscus check --json``; None if only one model is possible."""
 
 
 def check(
@@ -41,10 +41,10 @@ def check(
     progress: Any = None,
     threads: int | None = None,
 ) -> Check:
-    """Checks a case and tells what a run would take, as ``meniscus check`` does; the parameters are those of `run`.
+    """Checks a case and estimates the cost of a run, as ``meniscus check`` does; the parameters are those of `run`.
 
     Raises:
-        CaseError: the case is wrong.
+        CaseError: the case is invalid.
         SolverError: one of the first steps failed.
 
     """

@@ -1,4 +1,4 @@
-"""From what a user gives to what the native part takes."""
+"""Conversion of user input for the native part."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _refused(key: str, message: str, help: str = "") -> CaseError:
 
 
 def plain(value: Any, key: str = "") -> Any:
-    """The value as JSON has it: paths become texts, arrays of numpy lists."""
+    """The value in the types of JSON: paths become strings, numpy arrays lists."""
     if isinstance(value, Mapping):
         return {str(name): plain(inner, f"{key}.{name}" if key else str(name)) for name, inner in value.items()}
     if isinstance(value, list | tuple):
@@ -46,7 +46,7 @@ def given(
     drawing: Mapping[str, Any] | None = None,
     options: Mapping[str, Any] | None = None,
 ) -> dict[str, str]:
-    """A case or a drawing, its kind first, with changes of keys and parameters; those that are None are left out."""
+    """A case or a drawing with its kind, overrides and parameters; those that are None are left out."""
     kind, value = source
     text = json.dumps(plain(value)) if isinstance(value, Mapping) else os.fspath(value)
     there = [{name: one for name, one in (of or {}).items() if one is not None} for of in (drawing, options)]
@@ -60,14 +60,14 @@ def given(
 
 
 def case_source(case: Mapping[str, Any] | str | os.PathLike[str] | None) -> tuple[str, Any]:
-    """The kind of a case and the case."""
+    """The kind of a case, and the case."""
     if case is None:
         return ("built-in", "")
     return ("dict", case) if isinstance(case, Mapping) else ("file", case)
 
 
 def listener(progress: Any) -> Progress | None:
-    """A function of a share and a text, from one, from a bar of tqdm, or from True."""
+    """A function of a fraction and a text, from such a function, a tqdm progress bar, or True."""
     if progress is None or progress is False:
         return None
     if progress is True:

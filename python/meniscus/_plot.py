@@ -1,4 +1,4 @@
-"""Pictures of results by matplotlib, and data sets of pyvista. Both are imported only here, and only when they are asked for."""
+"""Pictures of results with matplotlib, and pyvista data sets. Both libraries are imported only here, and only on demand."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def _particles(particles: Fields, field: str | None, ax: Axes) -> None:
 
 
 def _color(artist: Any, fields: Fields, field: str | None, ax: Axes) -> None:
-    """Colors by a field with a bar beside, vectors by their length, or by the phase."""
+    """Colors by a field, with a color bar, vectors by their magnitude; by the phase without a field."""
     if field is None:
         phases = fields.get("phase")
         artist.set_facecolor(["0.85"] if phases is None else [PHASES[phase] for phase in phases])
@@ -103,7 +103,7 @@ def _color(artist: Any, fields: Fields, field: str | None, ax: Axes) -> None:
 
 
 def to_pyvista(fields: Fields) -> Any:
-    """A data set of pyvista with the points, cells and fields."""
+    """A pyvista data set with the points, cells and fields."""
     import pyvista
 
     points = _in_space(fields.points)

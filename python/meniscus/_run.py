@@ -26,34 +26,34 @@ def run(
 ) -> Result:
     """Runs a case to its end, as ``meniscus run`` does, to the same bits.
 
-    Other Python threads go on meanwhile, and may run cases too. Ctrl-C stops the run after the present step; the packing of particles before the first
-    step, and the extraction of a network, are not interrupted.
+    Other Python threads continue meanwhile, and may run cases as well. Ctrl-C stops the run after the present step; the packing of particles before the
+    first step and the extraction of a network cannot be interrupted.
 
     Args:
-        case: path of a case file; or the same as a dict, such as ``{"format": 1, "title": "drop", "geometry": {...}, "sph": {...}}``, whose files are
-            looked for in the working folder; the built-in case where there is none.
-        set: values of keys in place of those of the case, by key, such as ``{"sph.spacing": 2e-5, "expect": []}``.
-        out: folder for the files that the command line writes, new or empty. Nothing is written where there is none.
-        resume: whether to continue the run in ``out``.
-        progress: a function that is called with the share of the run that is done, 0 to 1, and a text; or a bar of tqdm; or True for a new bar.
-            What the function raises stops the run.
-        threads: number of threads; all cores where there is none. The result does not depend on it.
+        case: path of a case file; or its content as a dict, such as ``{"format": 1, "title": "drop", "geometry": {...}, "sph": {...}}``, in which file names
+            are relative to the working folder; the built-in case if None.
+        set: values that override those of the case, by key, such as ``{"sph.spacing": 2e-5, "expect": []}``.
+        out: new or empty folder for the files that the command line writes. If None, nothing is written.
+        resume: whether to resume the interrupted run in ``out``.
+        progress: a function called with the completed fraction of the run, 0 to 1, and a text; or a tqdm progress bar; or True for a new one.
+            An exception raised by the function stops the run.
+        threads: number of threads; all cores if None. The result does not depend on it.
         keep_frames: whether ``Result.frames`` has the state at each time of ``[output.vtk]``, and not only at the end. Each frame of a direct simulation
             takes about 200 bytes per particle.
 
     Returns:
-        The result. Its ``status`` is ``expectation-failed`` where a measure is not what ``[[expect]]`` says.
+        The result. Its ``status`` is ``expectation-failed`` if a measure does not meet an expectation in ``[[expect]]``.
 
     Raises:
-        CaseError: the case, a file that it names or a value of ``set`` is wrong.
+        CaseError: the case, a file that it names or a value of ``set`` is invalid.
         SolverError: the solver failed.
-        FolderError: ``out`` is not empty, is in use, holds nothing to resume or cannot be written.
-        KeyboardInterrupt: Ctrl-C; with ``out`` the state was saved, and ``resume=True`` goes on.
+        FolderError: ``out`` is not empty, is in use, contains nothing to resume or cannot be written.
+        KeyboardInterrupt: Ctrl-C; with ``out`` the state was saved, and ``resume=True`` resumes the run.
 
     """
     output = None if out is None else (os.fspath(out), resume)
     if resume and out is None:
-        raise ValueError("resume needs out: the folder of the run to go on with")
+        raise ValueError("resume requires out: the folder of an interrupted run to resume")
     return _result(given(case_source(case), set), output, progress, threads, keep_frames)
 
 
@@ -94,31 +94,31 @@ def network(
     Args:
         drawing: path of a drawing (SVG, DXF, shapefile, GeoJSON, WKT, list of discs, image, shape file in TOML) or of a case file; or a shape file as a
             dict, such as ``{"format": 1, "min": [0, 0], "max": [1e-3, 1e-3], "solid": "inside", "shapes": [{"disc": {"center": [0, 0], "radius": 1e-4}}]}``.
-        angle_deg: contact angle through the wetting phase in degrees; 0 where there is none.
-        tension: interfacial tension in N/m; 1 where there is none, so that pressures are those per N/m.
-        inlet: side that the invading phase enters through: ``left``, ``right``, ``bottom`` or ``top``. Without one nothing is displaced.
-        outlet: side that the defending phase leaves through.
+        angle_deg: contact angle through the wetting phase in degrees (default 0).
+        tension: interfacial tension in N/m; 1 if None, so that pressures are per N/m.
+        inlet: side through which the invading phase enters: ``left``, ``right``, ``bottom`` or ``top``. If None, nothing is displaced.
+        outlet: side through which the defending phase leaves.
         process: ``drainage`` (default), ``imbibition`` or ``cycle``.
         cycles: number of cycles of ``process="cycle"``.
         trapping: whether a defending region without a path to the outlet is trapped (default yes).
-        periodic: sides that are joined: ``x``, ``y`` or ``xy``.
-        depth: distance of floor and lid in m; that of the file where there is none, or everything is per meter of depth.
-        persistence: ratio above which two maxima of the wall distance are one pore, 0.5 to 1.
+        periodic: periodic directions: ``x``, ``y`` or ``xy``.
+        depth: distance between floor and lid in m; that of the file if None, and without one all results are per meter of depth.
+        persistence: persistence ratio above which two maxima of the wall distance count as one pore, 0.5 to 1.
         unit: unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px.
         scale: length of the drawing unit in m, in place of ``unit``.
         window: corners of the domain in m: x0, y0, x1, y1.
-        layers: names of the layers that are read; all where there is none.
-        join_within: gap below which the ends of lines in a DXF drawing are joined, in units of the drawing.
-        threshold: gray value between solid and pore of an image, 0 (black) to 1 (white).
+        layers: names of the layers to read; all if None.
+        join_within: largest gap across which ends of lines in a DXF drawing are joined, in units of the drawing.
+        threshold: gray value of an image that separates solid and pore, 0 (black) to 1 (white).
         pixel_size: side of a pixel of an image in m.
-        invert: whether what is drawn is the pore.
+        invert: whether the drawn shapes are the pore space.
         recognize_circles: whether polygons whose vertices lie on a circle become discs (default yes).
         smooth_below_deg: vertices with a turning angle below this many degrees become arcs (default 20); 0: none.
         columns: columns of x, y and radius in a list of discs, from 0.
         separator: the character between the columns of a list of discs.
         diameters: whether the third column of a list of discs holds diameters.
-        frame: the inside of the outline without fill around all others, ``pore`` or ``solid``, where the drawing leaves it open.
-        nested: what shapes of another color on larger ones, or outlines in others on layers of GDS, are: ``pore`` or ``solid``.
+        frame: whether the inside of an unfilled outline around all others is ``pore`` or ``solid``, if the drawing does not determine it.
+        nested: whether shapes of another color on larger ones, or outlines within others on layers of GDS, are ``pore`` or ``solid``.
         out: as in `run`.
         progress: as in `run`.
         threads: as in `run`.
@@ -127,7 +127,7 @@ def network(
         The result, with ``pores``, ``throats`` and ``events``.
 
     Raises:
-        CaseError: the drawing or a parameter is wrong.
+        CaseError: the drawing or a parameter is invalid.
         FolderError: as in `run`.
         KeyboardInterrupt: Ctrl-C.
 

@@ -1,4 +1,4 @@
-"""Parameter studies, their runs done by any executor."""
+"""Parameter studies, with runs on any executor."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ class Sample:
     index: int
     """Number, from 1."""
     name: str
-    """Name, that of its folder."""
+    """Name, equal to that of its folder."""
     folder: Path
-    """The folder of its files."""
+    """Folder of its files."""
     status: str
     """``done``, ``partial``, ``failed`` or ``to do``."""
     error: str
-    """Why it failed, else empty."""
+    """Why it failed; empty otherwise."""
     parameters: dict[str, Any]
-    """What varies, by name."""
+    """Values of the parameters, by name."""
     measures: dict[str, Measure]
-    """Measures by name, where it is done."""
+    """Measures by name, if the run is done."""
 
 
 class Study(Sequence[Sample]):
@@ -58,12 +58,12 @@ class Study(Sequence[Sample]):
         return iter(self._samples)
 
     def __repr__(self) -> str:
-        """Title and standing."""
+        """Title and progress."""
         done = sum(sample.status == "done" for sample in self)
         return f"<Study: {self.title}; {done} of {len(self)} runs done>"
 
     def column(self, name: str) -> np.ndarray:
-        """A parameter or a measure of all runs, of shape (runs,); NaN where a measure is not there."""
+        """A parameter or a measure of all runs, of shape (runs,); NaN if a run does not have the measure."""
         if all(name in sample.parameters for sample in self):
             return np.array([sample.parameters[name] for sample in self])
         found = [sample.measures.get(name) for sample in self]
@@ -72,13 +72,13 @@ class Study(Sequence[Sample]):
         return np.array([np.nan if one is None or one.value is None else one.value for one in found])
 
     def table(self) -> dict[str, np.ndarray]:
-        """All parameters and measures by name, as ``pandas.DataFrame`` takes them."""
+        """All parameters and measures by name, for ``pandas.DataFrame``."""
         names = dict.fromkeys(name for sample in self for name in (*sample.parameters, *sample.measures))
         return {"run": np.array([sample.name for sample in self]), **{name: self.column(name) for name in names}}
 
 
 def do_run(path: str, out: str, index: int, digest: str, threads: int | None, token: str) -> tuple[str, str]:
-    """One run of a study, which leaves its files in the folder of the study. All arguments are plain, so that any process can do it."""
+    """Does one run of a study and writes its files to the folder of the study. All arguments are plain, so that any process can do it."""
     return _meniscus.study_run(path, out, (index, digest), threads, token)
 
 
@@ -92,25 +92,25 @@ def study(
 ) -> Study:
     """Does all runs of a study that are not complete, and writes its report, as ``meniscus study run`` does.
 
-    Each run is one call of a function of this package with plain arguments, and leaves its files in the folder of the study, as ``report.html`` and
-    ``table.csv`` at the end: processes on other machines must see the study file and this folder under the same paths. After an interruption the same call
-    goes on; runs that are complete are not done again.
+    Each run is one call of a function of this package with plain arguments, and writes its files to the folder of the study, which contains ``report.html``
+    and ``table.csv`` at the end: processes on other machines must see the study file and this folder under the same paths. After an interruption, the same
+    call resumes the study; complete runs are not repeated.
 
     Args:
         path: the study file.
-        executor: where the runs are done: any executor of the form of ``concurrent.futures``, such as ``ProcessPoolExecutor``, ``MPIPoolExecutor`` of
-            mpi4py, or ``client.get_executor()`` of Dask. Where there is none, they are done in this process, one after the other.
-        out: folder of the study, new or of this study; ``out/study-NAME`` where there is none.
-        threads: threads of each run; with an executor 1 where there is none, else all cores.
-        progress: as in `run`; it is called when a run has ended.
+        executor: executor of the runs, with the interface of ``concurrent.futures``, such as ``ProcessPoolExecutor``, ``MPIPoolExecutor`` of
+            mpi4py, or ``client.get_executor()`` of Dask. If None, they are done in this process, one after the other.
+        out: folder of the study, new or of this study; ``out/study-NAME`` if None.
+        threads: threads of each run; if None, 1 with an executor, all cores without.
+        progress: as in `run`; called whenever a run has ended.
 
     Returns:
-        The runs with their parameters and measures. One that failed keeps the others from nothing: see its ``status`` and ``error``.
+        The runs with their parameters and measures. A failed run does not prevent the others: see its ``status`` and ``error``.
 
     Raises:
-        CaseError: the study or the case of a run is wrong; then nothing was run.
+        CaseError: the study or the case of a run is invalid; nothing was run.
         FolderError: the folder cannot be used.
-        KeyboardInterrupt: Ctrl-C; the runs that were going on in this process have saved their state.
+        KeyboardInterrupt: Ctrl-C; the runs in progress in this process have saved their states.
 
     """
     file = str(Path(path).absolute())
@@ -131,7 +131,7 @@ def study(
 
 
 def _endings(executor: Executor | None, calls: list[Any], token: str) -> Iterator[tuple[int, tuple[str, str]]]:
-    """The number of each run and how it ended, as they end."""
+    """The number of each run and how it ended, in the order in which they end."""
     if executor is None:
         yield from ((call[2], do_run(*call)) for call in calls)
         return

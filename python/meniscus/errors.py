@@ -1,4 +1,4 @@
-"""What the functions of this package raise."""
+"""Exceptions of this package."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Mistake:
     message: str
     """What was expected and what was found."""
     help: str = ""
-    """A way out; empty where the message says it all."""
+    """A remedy; empty if the message suffices."""
     file: str | None = None
     """The file; None for a dict or a parameter."""
     line: int | None = None
@@ -33,7 +33,7 @@ class Mistake:
 
 
 class CaseError(MeniscusError, ValueError):
-    """A case, a drawing, a study or a parameter is wrong; ``str`` of it tells all mistakes with their places and ways out.
+    """A case, a drawing, a study or a parameter is invalid; ``str`` gives all mistakes with their locations and remedies.
 
     ``mistakes`` has all of them; ``file``, ``line``, ``column``, ``key``, ``message`` and ``help`` are those of the first.
     """
@@ -48,12 +48,12 @@ class CaseError(MeniscusError, ValueError):
         self.key, self.message, self.help = first.key, first.message, first.help
 
     def __str__(self) -> str:
-        """All mistakes, each with its place, and below it the way out."""
+        """All mistakes, each with its location and, below it, the remedy."""
         return str(self.args[0])
 
 
 class SolverError(MeniscusError, RuntimeError):
-    """The solver failed. ``result`` is what there was until then, the last good state at its end; None where there was nothing."""
+    """The solver failed. ``result`` contains the results so far, ending with the last valid state; None if there are none."""
 
     def __init__(self, text: str, result: Result | None = None) -> None:
         """Takes the text and the result so far."""
@@ -66,4 +66,4 @@ class SolverError(MeniscusError, RuntimeError):
 
 
 class FolderError(MeniscusError, OSError):
-    """The folder for output is not empty, is in use, holds nothing to resume or cannot be written."""
+    """The folder for output is not empty, is in use, contains nothing to resume or cannot be written."""

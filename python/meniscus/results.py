@@ -1,4 +1,4 @@
-"""What a run leaves: numbers, series, fields, tables and diagrams, as arrays of numpy."""
+"""Results of a run: numbers, series, fields, tables and diagrams, as numpy arrays."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = NDArray[Any]
 
 
 def _arrays(data: Any) -> Any:
-    """Arrays from what the native part hands over."""
+    """Arrays from the data of the native part."""
     if isinstance(data, tuple):
         kind, columns, values = data
         array = np.frombuffer(values, dtype=kind)
@@ -34,15 +34,15 @@ class Measure:
     """A final result with its error bar."""
 
     value: float | None
-    """Value in ``unit``; None where it could not be measured, ``method`` says why."""
+    """Value in ``unit``; None if it could not be measured, for the reason in ``method``."""
     unit: str
-    """Unit, empty for pure numbers."""
+    """Unit; empty if dimensionless."""
     uncertainty: float | None
-    """One standard uncertainty in ``unit``; None where none is known."""
+    """One standard uncertainty in ``unit``; None if not known."""
     method: str
     """How it was measured, in one sentence."""
     rate: float | None = None
-    """How it still moves, in ``unit`` per s, where that is by more than its uncertainty."""
+    """Its rate of change at the end in ``unit`` per s, if it still changes by more than its uncertainty."""
 
 
 class Fields(Mapping[str, Array]):
@@ -52,10 +52,10 @@ class Fields(Mapping[str, Array]):
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
-        """Takes what the native part hands over."""
+        """Takes the data of the native part."""
         self._fields: dict[str, Array] = _arrays(data["fields"])
         self.units: dict[str, str] = dict(data["units"])
-        """Unit of each field, empty for pure numbers."""
+        """Unit of each field; empty if dimensionless."""
         self.kind: str = data.get("kind", "lines" if "ends" in data else "grid" if "counts" in data else "points")
         """``points``, ``lines``, ``polygons`` or ``grid``."""
         self.counts: tuple[int, int] | None = None
@@ -81,12 +81,12 @@ class Fields(Mapping[str, Array]):
         return len(self._fields)
 
     def __repr__(self) -> str:
-        """What there is."""
+        """Number of points and names of the fields."""
         return f"<Fields: {len(self.points)} points, {', '.join(self._fields) or 'no fields'}>"
 
     @property
     def points(self) -> Array:
-        """Positions in m, of shape (n, 2); of a grid those of its nodes, along x first."""
+        """Positions in m, of shape (n, 2); for a grid, those of its nodes, along x first."""
         if self.counts is None:
             return self._points
         columns, rows = self.counts
@@ -100,7 +100,7 @@ class Fields(Mapping[str, Array]):
         return [] if self._ends is None else np.split(self._vertices, self._ends[:-1]) if len(self._ends) else []
 
     def to_pyvista(self) -> Any:
-        """The same as a data set of pyvista, which must be installed: ``pip install meniscus[pyvista]``."""
+        """The fields as a pyvista data set; requires ``pip install meniscus[pyvista]``."""
         from ._plot import to_pyvista
 
         return to_pyvista(self)
@@ -111,15 +111,15 @@ class Frame:
     """The state at one time."""
 
     time: float
-    """Time in s; of a quasi-static displacement the displaced pore volumes."""
+    """Time in s; for a quasi-static displacement, the displaced pore volumes."""
     particles: Fields | None
     """Particles of a direct simulation, or particles or nodes of a thin film."""
     grid: Fields | None
     """The same fields on a regular grid, for direct simulations."""
     interface: Fields | None
-    """The interface; of a thin film its profile: x and height in m; of a network the menisci."""
+    """The interface; for a thin film its profile, x and height in m; for a network the menisci."""
     layers: dict[str, Fields] = field(default_factory=dict)
-    """Parts of a network: ``regions``, and at the end ``pores`` and ``throats``."""
+    """Parts of a network: ``regions`` and, at the end, ``pores`` and ``throats``."""
 
     @classmethod
     def _of(cls, data: Mapping[str, Any]) -> Frame:
@@ -144,9 +144,9 @@ class Diagram:
     """A diagram of the run, such as the capillary pressure over the saturation."""
 
     title: str
-    """What it shows."""
+    """Title."""
     labels: tuple[str, str]
-    """What stands along x and y, with units."""
+    """Quantities along x and y, with units."""
     logarithmic: tuple[bool, bool]
     """Whether the axes are logarithmic."""
     traces: list[Trace]
@@ -160,22 +160,22 @@ class Diagram:
 
 
 class Result:
-    """What a run left."""
+    """The results of a run."""
 
     def __init__(self, data: Mapping[str, Any]) -> None:
-        """Takes what the native part hands over."""
+        """Takes the data of the native part."""
         self._data = data
         end = data["end"]
         self.series: dict[str, Array] = _arrays(data["series"])
-        """Columns of ``series.csv`` by name, each of shape (records,); NaN where there is no value."""
+        """Columns of ``series.csv`` by name, each of shape (records,); NaN for missing values."""
         self.notes: list[str] = data["notes"]
-        """What to know of how the case and its drawing were read."""
+        """Notes on how the case and its drawing were read."""
         self.folder: Path | None = None if data["folder"] is None else Path(data["folder"])
-        """The folder of the files; None where nothing was written."""
+        """Folder of the files; None if nothing was written."""
         self.clock: tuple[str, str] = (end["clock"]["name"], end["clock"]["unit"])
-        """What the run went along, and its unit: ``("time", "s")`` for most."""
+        """The clock of the run and its unit: ``("time", "s")`` for most models."""
         self.documents: dict[str, str] = dict(end["documents"])
-        """Texts by the name of their file, such as ``at-end.json``."""
+        """Text files by name, such as ``at-end.json``."""
 
     @cached_property
     def report(self) -> dict[str, Any]:
@@ -184,7 +184,7 @@ class Result:
 
     @property
     def status(self) -> str:
-        """``done`` or ``expectation-failed``; of the result of a `SolverError` ``failed``."""
+        """``done`` or ``expectation-failed``; ``failed`` for the result of a `SolverError`."""
         return self.report["status"]
 
     @cached_property
@@ -194,7 +194,7 @@ class Result:
 
     @property
     def warnings(self) -> list[str]:
-        """What to know before trusting the measures."""
+        """Warnings that limit the validity of the measures."""
         return self.report["warnings"]
 
     @cached_property
@@ -204,7 +204,7 @@ class Result:
 
     @cached_property
     def frames(self) -> list[Frame]:
-        """The state at each time of ``[output.vtk]``, with ``keep_frames=True``; else that at the end alone."""
+        """The state at each time of ``[output.vtk]`` with ``keep_frames=True``; otherwise only that at the end."""
         kept = [Frame._of(one) for one in self._data["frames"]]
         return kept or [self.frame]
 
@@ -232,7 +232,7 @@ class Result:
     def tables(self) -> dict[str, dict[str, Array]]:
         """Tables of a network by the name of their file, such as ``pores`` for ``pores.csv``.
 
-        Each has its columns by name: numbers, NaN where there is none; whole numbers, -1 where the file has an empty field; yes or no; words.
+        Each is a dict of columns: numbers, with NaN for missing ones; integers, with -1 where the file has an empty field; booleans; words.
         """
         found = _arrays(self._data["end"]["tables"])
         return {name: {head: np.asarray(column) for head, column in one.items()} for name, one in found.items()}
@@ -263,13 +263,13 @@ class Result:
         return f"<Result: {self.status}; {numbers}>"
 
     def plot(self, kind: str | None = None, *, field: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws the result by matplotlib, which must be installed: ``pip install meniscus[plot]``.
+        """Draws the result with matplotlib; requires ``pip install meniscus[plot]``.
 
         Args:
-            kind: ``picture``, or the name of one of `diagrams`, such as ``capillary-pressure``. Where there is none, the curve of a network in which
-                something was displaced, else the picture.
-            field: the field that colors particles or regions in a picture; their phase where there is none.
-            ax: axes to draw on; new ones where there are none.
+            kind: ``picture``, or the name of one of `diagrams`, such as ``capillary-pressure``. If None, the capillary pressure curve of a network with a
+                displacement, otherwise the picture.
+            field: the field that colors particles or regions in a picture; their phase if None.
+            ax: axes to draw on; new ones if None.
 
         Returns:
             The axes.
@@ -281,7 +281,7 @@ class Result:
 
 
 def measure(reading: Mapping[str, Any]) -> Measure:
-    """A measure as the report has it."""
+    """A measure from its entry in the report."""
     motion = reading.get("not-at-rest")
     rate = None if motion is None else motion["rate"]
     return Measure(reading["value"], reading["unit"], reading["uncertainty"], reading["method"], rate)

@@ -127,6 +127,8 @@ fn diagram(diagram: &Diagram) -> Data {
         Stroke::Dashed => "dashed",
         Stroke::Dots => "dots",
         Stroke::Band => "band",
+        // Those of the curves of studies.
+        Stroke::Bar | Stroke::Blank | Stroke::Disc | Stroke::Ring | Stroke::Reference => "dots",
     };
     let traces = diagram.traces.iter().map(|trace| {
         Data::group([
@@ -145,8 +147,8 @@ fn diagram(diagram: &Diagram) -> Data {
     });
     let logarithmic = vec![diagram.x.logarithmic, diagram.y.logarithmic];
     Data::group([
-        ("title", Data::text(diagram.title)),
-        ("labels", Data::Words(vec![diagram.x.label, diagram.y.label])),
+        ("title", Data::text(&diagram.title)),
+        ("labels", Data::List([&diagram.x.label, &diagram.y.label].map(|label| Data::text(label)).into())),
         ("logarithmic", Data::Flags(logarithmic)),
         ("traces", Data::List(traces.collect())),
         ("map", map),

@@ -13,8 +13,7 @@ mod study;
 use std::path::PathBuf;
 
 use meniscus::run::checked;
-use meniscus::run::execute::{Finished, Job, Mode, RunError, execute};
-use meniscus::run::in_memory::run_in_memory;
+use meniscus::run::execute::{Finished, Job, Mode, RunError, execute, run_in_memory};
 use meniscus::run::report::Report;
 use meniscus::run::setup;
 use meniscus::run::source::Source;

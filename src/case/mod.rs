@@ -60,5 +60,3 @@ pub(crate) use sph::Sph;
 pub(crate) use steady::{FEWEST_ROWS, SteadyStop};
 pub use surface_force::{LineDelta, SurfaceForce};
 pub(crate) use wetting::{PatchedWall, WettingPatch, on_plates};
-#[cfg(test)]
-pub(crate) use {initial::Initial, sides::Walls};

@@ -38,7 +38,7 @@ fn print_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
     }
     let never = AtomicBool::new(false);
     let kept = opened.folder.estimates();
-    let found = estimates(&opened.runs, &opened.program, cores, (&kept, false), &never);
+    let found = estimates(&opened.runs, &opened.program, cores, &kept, false, &never);
     let results = results(&opened.runs, &opened.folder);
     say(&opened.study.title);
     if let Some(compare) = &opened.study.compare {

@@ -51,7 +51,7 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let flag = interrupt::flag();
     tell(format_args!("{} -> {}", opened.study.title, opened.folder.root().display()));
     let kept = opened.folder.estimates();
-    let estimates = estimates(&opened.runs, &opened.program, cores, (&kept, true), &flag);
+    let estimates = estimates(&opened.runs, &opened.program, cores, &kept, true, &flag);
     let memory = arguments.memory.map(|mebibytes| mebibytes.saturating_mul(BYTES_PER_MEBIBYTE)).or_else(free_memory);
     let Opened { runs, folder, program, .. } = opened;
     let job = Work { runs, estimates: &estimates, folder, program, cores, memory, interrupt: &flag };
@@ -116,7 +116,7 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         return finish(opened);
     }
     let owned: Vec<PlannedRun> = open.iter().map(|run| (*run).clone()).collect();
-    let estimates = estimates(&owned, &opened.program, cores, (&kept, true), &never);
+    let estimates = estimates(&owned, &opened.program, cores, &kept, true, &never);
     let array = Array {
         name: &opened.study.name,
         runs: &open,

@@ -42,10 +42,7 @@ fn work(
 ) -> Result<u8, Failure> {
     let cores = cores(arguments);
     let Opened { study, folder, .. } = opened;
-    let of_samples = |error: EnsembleError| match error {
-        EnsembleError::Case(error) => Failure::input(error),
-        other => Failure::new(USAGE, &other),
-    };
+    let of_samples = |error: EnsembleError| Failure::new(USAGE, &error);
     pool(NonZeroUsize::new(cores.threads * cores.jobs))?.install(|| {
         let mut engine = Engine::new(study, ensemble, folder);
         let all = ensemble.samples.len();
@@ -55,8 +52,7 @@ fn work(
             let mut teller = |done: usize| tell(format_args!("{done} of {all} samples done"));
             engine.run(&maps, folder, flag, &mut teller).map_err(of_samples)?;
         }
-        let figures =
-            write(study, ensemble, &engine, &maps, folder.root()).map_err(|error| Failure::new(USAGE, &error))?;
+        let figures = write(&engine, &maps, folder.root()).map_err(|error| Failure::new(USAGE, &error))?;
         let written = report_of(study, engine.results(), folder, &figures);
         let written = written.map_err(|error| Failure::new(USAGE, &error))?;
         if run.is_some_and(|flag| flag.load(Ordering::Relaxed)) {

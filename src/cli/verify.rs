@@ -69,8 +69,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     }
     let rows: Vec<Row> = planned.iter().map(|one| row(one, &fluids, &spacings, &found)).collect();
     let title = format!("Throats of {name} by direct simulation");
-    let written =
-        report::write(&folder, &subject, &rows, (&spacings, &fluids), &title).map_err(|error| usage(&error))?;
+    let written = report::write(&folder, &subject, &rows, &spacings, &fluids, &title).map_err(|error| usage(&error))?;
     say(&title);
     if !rows.is_empty() {
         say(written.table.markdown().trim_end());

@@ -1,10 +1,10 @@
-//! Common parts of diagrams and of the curves of studies: colors, ranges, round tick values, the legend (`plotters`).
+//! Parts of diagrams: colors, ranges, round tick values, the legend (`plotters`).
 
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 /// Width of a legend beside a drawing in pixels.
-pub(crate) const LEGEND: u32 = 270;
+pub(super) const LEGEND: u32 = 270;
 /// Height of a line of the legend in pixels.
 const LEGEND_LINE: i32 = 20;
 /// Margin on either side of the data, as a fraction of the range.
@@ -24,17 +24,17 @@ const COLORS: [RGBColor; 10] = [
 ];
 
 /// A numerical axis, linear or logarithmic.
-pub(crate) trait NumberAxis: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>> {}
+pub(super) trait NumberAxis: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>> {}
 
 impl<A: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>> NumberAxis for A {}
 
 /// The color of a line by its index.
-pub(crate) fn color_of(number: usize) -> RGBColor {
+pub(super) fn color_of(number: usize) -> RGBColor {
     COLORS[number % COLORS.len()]
 }
 
 /// The range of some values with a margin.
-pub(crate) fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool) -> std::ops::Range<f64> {
+pub(super) fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool) -> std::ops::Range<f64> {
     /// Half the range around a single value, relative to it.
     const AROUND_ONE: f64 = 0.5;
     let to = |value: f64| if logarithmic { value.ln() } else { value };
@@ -48,7 +48,7 @@ pub(crate) fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool
 }
 
 /// Round tick values in a range of a logarithmic axis: powers of ten if there are enough of them, else more.
-pub(crate) fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+pub(super) fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     /// Fewest tick values that show a scale.
     const FEWEST: usize = 3;
     const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
@@ -64,10 +64,10 @@ pub(crate) fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
 }
 
 /// Why drawing failed.
-pub(crate) type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+pub(super) type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// Draws the legend beside the drawing, where it covers nothing.
-pub(crate) fn draw_legend<'a>(
+pub(super) fn draw_legend<'a>(
     area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
     names: &[(String, RGBColor)],
 ) -> Result<(), DrawingError<'a>> {
@@ -80,7 +80,7 @@ pub(crate) fn draw_legend<'a>(
 }
 
 /// A tick label: only significant digits.
-pub(crate) fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     /// Outside of this range, an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
     /// Rounds off the rounding errors of ticks.

@@ -6,8 +6,21 @@ use plotters::prelude::*;
 use super::axes::{DrawingError, LEGEND, NumberAxis, color_of, draw_legend, logarithmic_ticks, range, short};
 use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
 
-/// Width and height of the drawing in pixels.
-const SIZE: (u32, u32) = (620, 440);
+/// The layout of a drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Layout {
+    /// Width and height without the legend in pixels.
+    pub(crate) size: (u32, u32),
+    /// Size of the title in pixels.
+    pub(crate) title: u32,
+    /// Most labels along x of a linear axis.
+    pub(crate) x_labels: usize,
+    /// The ticks along x of a logarithmic axis; round numbers if `None`.
+    pub(crate) x_ticks: Option<Vec<f64>>,
+}
+
+/// The layout of the diagrams of a run.
+const OF_RUN: Layout = Layout { size: (620, 440), title: 18, x_labels: 6, x_ticks: None };
 /// Color bands of a map; few enough to be distinguishable, and to keep files small.
 const BANDS: usize = 16;
 /// Lightest and darkest band.
@@ -29,6 +42,11 @@ pub struct DiagramError {
 
 /// The diagram as SVG; `None` if there is nothing to show.
 pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
+    svg_with(diagram, &OF_RUN)
+}
+
+/// The diagram as SVG in a layout; `None` if there is nothing to show.
+pub(crate) fn svg_with(diagram: &Diagram, layout: &Layout) -> Result<Option<String>, DiagramError> {
     let shown = |axis: &Axis, value: f64| value.is_finite() && (!axis.logarithmic || value > 0.0);
     let fits = |point: &[f64; 2]| shown(&diagram.x, point[0]) && shown(&diagram.y, point[1]);
     let mut traces: Vec<Trace> = diagram.traces.clone();
@@ -45,16 +63,17 @@ pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
         None => (range(of(0), diagram.x.logarithmic), range(of(1), diagram.y.logarithmic)),
     };
     let mut text = String::new();
-    let log = |range: std::ops::Range<f64>| {
-        let ticks = logarithmic_ticks(&range);
+    let log = |range: std::ops::Range<f64>, ticks: Option<&Vec<f64>>| {
+        let ticks = ticks.cloned().unwrap_or_else(|| logarithmic_ticks(&range));
         range.log_scale().with_key_points(ticks)
     };
-    let content = (map, traces.as_slice());
+    let content = Content { diagram, layout, map, traces: &traces };
+    let ticks = layout.x_ticks.as_ref();
     let drawn = match (diagram.x.logarithmic, diagram.y.logarithmic) {
-        (false, false) => draw(&mut text, diagram, content, x, y),
-        (true, false) => draw(&mut text, diagram, content, log(x), y),
-        (false, true) => draw(&mut text, diagram, content, x, log(y)),
-        (true, true) => draw(&mut text, diagram, content, log(x), log(y)),
+        (false, false) => draw(&mut text, content, x, y),
+        (true, false) => draw(&mut text, content, log(x, ticks), y),
+        (false, true) => draw(&mut text, content, x, log(y, None)),
+        (true, true) => draw(&mut text, content, log(x, ticks), log(y, None)),
     };
     drawn.map_err(|error| DiagramError { name: diagram.name, why: error.to_string() })?;
     Ok(Some(text))
@@ -109,10 +128,17 @@ fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
     found
 }
 
+/// What is drawn: the map and the points of the traces that the axes can show.
+struct Content<'a> {
+    diagram: &'a Diagram,
+    layout: &'a Layout,
+    map: Option<&'a Map>,
+    traces: &'a [Trace],
+}
+
 fn draw<'a>(
     text: &'a mut String,
-    diagram: &Diagram,
-    (map, traces): (Option<&Map>, &[Trace]),
+    Content { diagram, layout, map, traces }: Content<'_>,
     x: impl NumberAxis,
     y: impl NumberAxis,
 ) -> Result<(), DrawingError<'a>> {
@@ -124,6 +150,8 @@ fn draw<'a>(
             Stroke::Thin => GRAY,
             Stroke::Dashed => BLACK,
             Stroke::Full | Stroke::Dots => color_of(colors.next().unwrap_or(0)),
+            Stroke::Blank => WHITE,
+            Stroke::Reference | Stroke::Bar | Stroke::Disc | Stroke::Ring => color_of(colors.start.saturating_sub(1)),
             // Each lies on top of the one before.
             Stroke::Band => {
                 stacked += 1;
@@ -148,13 +176,14 @@ fn draw<'a>(
             names.push((format!("{}: {value}", map.label), band_color(band)));
         }
     }
-    let width = SIZE.0 + if names.is_empty() { 0 } else { LEGEND };
-    let canvas = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    let (width, height) = layout.size;
+    let whole = width + if names.is_empty() { 0 } else { LEGEND };
+    let canvas = SVGBackend::with_string(text, (whole, height)).into_drawing_area();
     canvas.fill(&WHITE)?;
-    let (area, margin) = canvas.split_horizontally(SIZE.0);
+    let (area, margin) = canvas.split_horizontally(width);
     draw_legend(&margin, &names)?;
     let mut chart = ChartBuilder::on(&area)
-        .caption(diagram.title, ("sans-serif", 18))
+        .caption(&diagram.title, ("sans-serif", layout.title))
         .margin(12)
         .x_label_area_size(48)
         .y_label_area_size(84)
@@ -169,9 +198,9 @@ fn draw<'a>(
     if map.is_some() {
         mesh.disable_mesh();
     }
-    mesh.x_desc(diagram.x.label)
-        .y_desc(diagram.y.label)
-        .x_labels(6)
+    mesh.x_desc(&*diagram.x.label)
+        .y_desc(&*diagram.y.label)
+        .x_labels(layout.x_labels)
         .label_style(("sans-serif", 14))
         .axis_desc_style(("sans-serif", 15))
         .light_line_style(RGBColor(240, 240, 240))
@@ -179,19 +208,22 @@ fn draw<'a>(
         .y_label_formatter(&number)
         .draw()?;
     for (trace, color) in colored {
-        let points = || trace.points.iter().map(|point| (point[0], point[1]));
+        let points = trace.points.iter().map(|point| (point[0], point[1]));
+        let width = if matches!(trace.stroke, Stroke::Full | Stroke::Dashed | Stroke::Ring) { 2 } else { 1 };
+        let line = color.stroke_width(width);
         match trace.stroke {
-            Stroke::Full => chart.draw_series(LineSeries::new(points(), color.stroke_width(2))).map(drop)?,
-            Stroke::Thin => chart.draw_series(LineSeries::new(points(), color.stroke_width(1))).map(drop)?,
-            Stroke::Dashed => {
-                chart.draw_series(DashedLineSeries::new(points(), 6, 4, color.stroke_width(2))).map(drop)?;
+            Stroke::Full | Stroke::Thin | Stroke::Bar => chart.draw_series(LineSeries::new(points, line)).map(drop)?,
+            Stroke::Dashed | Stroke::Reference => {
+                chart.draw_series(DashedLineSeries::new(points, 6, 4, line)).map(drop)?;
             }
             Stroke::Band => {
-                chart.draw_series([Polygon::new(points().collect::<Vec<_>>(), color.filled())]).map(drop)?;
+                chart.draw_series([Polygon::new(points.collect::<Vec<_>>(), color.filled())]).map(drop)?;
             }
-            Stroke::Dots => {
-                chart.draw_series(points().map(|point| Circle::new(point, 3, color.filled()))).map(drop)?;
+            Stroke::Dots => chart.draw_series(points.map(|point| Circle::new(point, 3, color.filled()))).map(drop)?,
+            Stroke::Blank | Stroke::Disc => {
+                chart.draw_series(points.map(|point| Circle::new(point, 4, color.filled()))).map(drop)?;
             }
+            Stroke::Ring => chart.draw_series(points.map(|point| Circle::new(point, 4, line))).map(drop)?,
         }
     }
     canvas.present()
@@ -202,8 +234,8 @@ mod tests {
     use super::*;
 
     fn diagram(map: Option<Map>, traces: Vec<Trace>) -> Diagram {
-        let axis = |label| Axis { label, logarithmic: true };
-        Diagram { name: "test", title: "A test", x: axis("x in m"), y: axis("t in s"), map, traces }
+        let axis = |label: &'static str| Axis { label: label.into(), logarithmic: true };
+        Diagram { name: "test", title: "A test".into(), x: axis("x in m"), y: axis("t in s"), map, traces }
     }
 
     #[test]

@@ -20,6 +20,13 @@ pub(crate) fn page(title: &str, body: &str) -> String {
     )
 }
 
+/// A picture that links to itself, with a caption; both are escaped already.
+pub(crate) fn figure(picture: &str, caption: &str) -> String {
+    format!(
+        "<figure><a href=\"{picture}\"><img loading=\"lazy\" src=\"{picture}\" alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>\n"
+    )
+}
+
 /// The text with HTML characters escaped.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")

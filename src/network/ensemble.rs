@@ -5,6 +5,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::{Deserialize, Serialize};
+
 use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Element, Phase};
 use super::dynamic::solver::DynamicSolver;
@@ -41,19 +43,41 @@ pub(crate) enum Sample {
     InTime(Box<DynamicSolver>),
 }
 
-/// The results of one realization.
-#[derive(Debug, Clone, PartialEq)]
+/// The results of one realization, as a study keeps them.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Observed {
-    /// All measures.
-    pub(crate) measures: Vec<Measure>,
+    /// Name, unit and value of each measure.
+    pub(crate) measures: Vec<(String, String, f64)>,
     /// For each half cycle the capillary pressure in Pa at each saturation, infinite if the saturation is not reached or needs no pressure.
     pub(crate) curves: Vec<Vec<f64>>,
-    /// Which elements of the reference the invading phase held.
-    pub(crate) invaded: Vec<bool>,
+    /// Which elements of the reference the invading phase held at breakthrough, or at the end of the first half cycle: eight per byte.
+    pub(crate) invaded: Vec<u8>,
     /// Number of events or steps.
     pub(crate) steps: u64,
     /// Number of pores.
     pub(crate) pores: usize,
+    /// Wall time in s, measured by the caller.
+    pub(crate) seconds: f64,
+}
+
+impl Observed {
+    /// The measures, and for each element of the reference whether its counterpart among the own elements is `invaded`.
+    fn new(measures: Vec<Measure>, counterparts: &[Option<usize>], invaded: &[bool]) -> Self {
+        let is_invaded = |element: &Option<usize>| element.is_some_and(|element| invaded[element]);
+        let bits = |parts: &[Option<usize>]| {
+            parts.iter().enumerate().fold(0, |byte, (k, part)| byte | (u8::from(is_invaded(part)) << k))
+        };
+        Self {
+            measures: measures.into_iter().map(|one| (one.name, one.unit, one.value)).collect(),
+            invaded: counterparts.chunks(8).map(bits).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Whether an element of the reference was invaded.
+    pub(crate) fn is_invaded(&self, element: usize) -> bool {
+        self.invaded.get(element / 8).is_some_and(|byte| byte >> (element % 8) & 1 == 1)
+    }
 }
 
 /// The elements of a map, those of one of the networks.
@@ -163,13 +187,11 @@ fn quasi_static(
         }
     }
     let config = &solver.model.config;
-    let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(config, cycles));
     Some(Observed {
-        curves,
-        invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
-        measures: measures::all(&solver.model, costly),
+        curves: solver.cycles().map_or(Vec::new(), |cycles| curves(config, cycles)),
         steps: solver.steps(),
         pores: config.pores.main_region.len(),
+        ..Observed::new(measures::all(&solver.model, costly), counterparts, &invaded)
     })
 }
 
@@ -219,11 +241,9 @@ fn in_its_time(
     }
     let invaded = invaded.unwrap_or_else(|| held(&solver));
     Ok(Some(Observed {
-        curves: Vec::new(),
-        invaded: counterparts.iter().map(|it| it.is_some_and(|element| invaded[element])).collect(),
-        measures: solver.measures(&series),
         steps: solver.steps(),
         pores: solver.quasi_static().config.pores.main_region.len(),
+        ..Observed::new(solver.measures(&series), counterparts, &invaded)
     }))
 }
 
@@ -342,6 +362,14 @@ impl Reference {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_invaded_is_kept_for_each_element_of_the_reference() {
+        let counterparts: Vec<Option<usize>> = (0..11).rev().map(Some).chain([None]).collect();
+        let invaded: Vec<bool> = (0..11).map(|k| k % 3 == 0).collect();
+        let observed = Observed::new(Vec::new(), &counterparts, &invaded);
+        assert!((0..13).all(|k| observed.is_invaded(k) == (k < 11 && (10 - k) % 3 == 0)));
+    }
 
     #[test]
     fn a_saturation_has_the_pressure_of_the_event_that_passes_it() {

@@ -6,7 +6,7 @@ use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::tables::{kept, radius};
 use crate::case::Side;
-use crate::diagram::{Area, Axis, Color, Diagram, Frame, RegionMap, Stroke, Through, Tone, Trace, colors};
+use crate::diagram::{Area, Color, Diagram, Frame, RegionMap, Stroke, Through, Tone, Trace, colors};
 use crate::math::Vec2;
 
 /// Least length of steps of the curve that are drawn, over that of an axis.
@@ -92,15 +92,8 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
     };
     let finest = [0, 1].map(|side| FINEST * (ends(side)[1] - ends(side)[0]));
     traces.iter_mut().for_each(|trace| trace.points = thinned(&trace.points, finest));
-    let axis = |label| Axis { label, logarithmic: false };
-    Some(Diagram {
-        name: "capillary-pressure",
-        title: "Capillary pressure over saturation",
-        x: axis("saturation of the wetting phase"),
-        y: axis(label),
-        map: None,
-        traces,
-    })
+    let title = "Capillary pressure over saturation";
+    Some(Diagram::linear("capillary-pressure", title, ["saturation of the wetting phase", label], traces))
 }
 
 /// Primary drainage, imbibition, secondary drainage and so on in a cycle; for a single half cycle, the process alone.

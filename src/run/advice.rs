@@ -89,6 +89,7 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
         Model::Network(_) => None,
         _ => return None,
     };
+    let trial = trial.filter(|_| sph.is_some());
     let clock = Instant::now();
     let (geometry, open) = sides(case)?;
     let network = network::extract(&geometry, open).ok()?;
@@ -112,12 +113,12 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
         spacing_m: spacing,
         spacings_across: narrowest / spacing,
         coarse_throats: widths.iter().filter(is_coarse).count(),
-        particles: trial.filter(|_| sph.is_some()).map_or_else(
+        particles: trial.map_or_else(
             || (network.regions.iter().map(|region| region.area).sum::<f64>() / (spacing * spacing)).round(),
             |trial| trial.unknowns as f64,
         ),
-        steps: trial.filter(|_| sph.is_some()).map(|trial| trial.steps),
-        hours: trial.filter(|_| sph.is_some()).map(|trial| trial.duration_s / 3600.0),
+        steps: trial.map(|trial| trial.steps),
+        hours: trial.map(|trial| trial.duration_s / 3600.0),
         numbers: [pore("smallest", smallest), pore("median", median), pore("largest", largest)]
             .into_iter()
             .flatten()

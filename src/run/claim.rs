@@ -32,8 +32,7 @@ fn path(folder: &Path) -> PathBuf {
 pub(crate) fn claim(folder: &Path) -> Result<Claim, FolderError> {
     let path = path(folder);
     atomic::make_folder(&folder.join("restart"))?;
-    let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
-    let mut file = lock(folder, opened.map_err(FileError::write(&path))?)?;
+    let mut file = lock(folder, open(&path)?)?;
     let holder = format!("process {} on {}\n", std::process::id(), host());
     file.set_len(0).and_then(|()| file.rewind()).map_err(FileError::write(&path))?;
     file.write_all(holder.as_bytes()).map_err(FileError::write(&path))?;
@@ -48,14 +47,23 @@ pub(crate) fn existing(folder: &Path) -> Result<(), FolderError> {
     }
 }
 
+/// Opens a file to lock, which is created if it is missing.
+pub(crate) fn open(path: &Path) -> Result<File, FileError> {
+    OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(FileError::write(path))
+}
+
+/// The holder named in a locked file, in parentheses; empty if there is none.
+pub(crate) fn holder(file: &mut File) -> String {
+    let mut by = String::new();
+    // For the message only: without it, the message is shorter.
+    let _ = file.read_to_string(&mut by);
+    if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) }
+}
+
 fn lock(folder: &Path, mut file: File) -> Result<File, FolderError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
-            let mut by = String::new();
-            // For the message only: without it, the message is shorter.
-            let _ = file.read_to_string(&mut by);
-            let by = if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) };
-            Err(FolderError::InUse { folder: folder.to_path_buf(), by })
+            Err(FolderError::InUse { folder: folder.to_path_buf(), by: holder(&mut file) })
         }
         // A file system without locks, as on some clusters: exclusive access cannot be enforced.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
@@ -84,15 +92,5 @@ mod tests {
         drop(held);
         assert_eq!(std::fs::read(path(folder.path())).unwrap(), b"");
         drop(claim(folder.path()).unwrap());
-    }
-
-    #[test]
-    fn what_a_dead_process_left_is_no_obstacle() {
-        let folder = tempfile::tempdir().unwrap();
-        atomic::write(&path(folder.path()), b"process 1 on elsewhere, a name that is longer than the present one\n")
-            .unwrap();
-        let held = claim(folder.path()).unwrap();
-        assert!(std::fs::read_to_string(path(folder.path())).unwrap().ends_with(&format!("on {}\n", host())));
-        drop(held);
     }
 }

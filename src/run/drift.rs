@@ -7,7 +7,7 @@
 //! A contact angle can overshoot and return: a flow that loses the kinetic energy E can do the work E on an interface of the length L, and so turn it by up to
 //! √(2E/(σL)). E is at most the kinetic energy of the whole domain in the last window.
 
-use super::steady::{self, last_windows, range};
+use super::steady::{self, Windows, range};
 use crate::case::SteadyStop;
 use crate::solver::{Quantity, Series, Watched};
 
@@ -27,14 +27,12 @@ pub(crate) struct Drift {
 impl Drift {
     /// The drift of a column of `series` over windows of a fifth of the time; `None` if it is not known in each of them.
     pub(crate) fn of(series: &Series, column: &str) -> Option<Self> {
-        let index = series.columns.iter().position(|one| one == column)?;
-        let [.., last_rows] = last_windows(&series.rows, &SteadyStop::default())?;
-        let values = windows(series, column)?;
-        let [first, second, third] = values.each_ref().map(|values| mean(values));
+        let (times, windows) = (windows(series, series.columns.first()?)?, windows(series, column)?);
+        let [first, second, third] = windows.means;
         let (before, last) = (second - first, third - second);
-        let approach = if before * last > 0.0 { steady::left([first, second, third]) } else { 0.0 };
-        let left = approach.max(0.5 * range(&values[2]));
-        let rate = slope(last_rows, index);
+        let approach = if before * last > 0.0 { steady::left(windows.means) } else { 0.0 };
+        let left = approach.max(0.5 * range(&windows.values[2]));
+        let rate = slope(&times, &windows);
         (left.is_finite() && rate.is_finite()).then_some(Self { left, rate, by_flow: 0.0, off: 0.0 })
     }
 
@@ -46,7 +44,8 @@ impl Drift {
             let turn = (2.0 * energy_to_lose(series, energy) / (tension * length)).sqrt().to_degrees();
             drift.by_flow = if turn.is_finite() { turn } else { 0.0 };
             let distance = at_rest.map_or(0.0, |[least, most]| value.clamp(least, most) - value);
-            if approaches(series, column, distance) || moved(series, column) > MOVED * distance.abs() {
+            let windows = windows(series, column)?;
+            if approaches(&windows, distance) || range(&windows.values.concat()) > MOVED * distance.abs() {
                 drift.left = drift.left.max(distance.abs());
             }
             drift.off = if pins { 0.0 } else { distance.abs() };
@@ -83,31 +82,19 @@ const FARTHEST_ERROR: f64 = 1.5;
 /// Fraction of the remaining change by which an angle that oscillates about its end moved within three windows.
 const MOVED: f64 = 0.5;
 
-/// Values of a column in the last three windows.
-fn windows(series: &Series, column: &str) -> Option<[Vec<f64>; 3]> {
-    let index = series.columns.iter().position(|one| one == column)?;
-    let windows = last_windows(&series.rows, &SteadyStop::default())?;
-    Some(windows.map(|rows| rows.iter().map(|row| row[index]).collect()))
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// Range of a column within the last three windows together.
-fn moved(series: &Series, column: &str) -> f64 {
-    windows(series, column).map_or(0.0, |windows| range(&windows.concat()))
+/// A column in the last three windows.
+fn windows(series: &Series, column: &str) -> Option<Windows> {
+    Windows::of(&series.rows, &series.columns, column, &SteadyStop::default())
 }
 
 /// Whether a column approaches a known end over the signed `distance`: its mean moves there from window to window, in the last by more than [`NOISE`] of the range
 /// in the window and by more than [`SLOWEST`] of the distance.
 ///
 /// Spreading is a power law: an exponential through three windows ends long before the angle at rest.
-fn approaches(series: &Series, column: &str, distance: f64) -> bool {
-    let Some(windows) = windows(series, column) else { return false };
-    let [first, second, third] = windows.each_ref().map(|values| mean(values));
+fn approaches(windows: &Windows, distance: f64) -> bool {
+    let [first, second, third] = windows.means;
     let (before, now) = ((second - first) * distance.signum(), (third - second) * distance.signum());
-    before > 0.0 && now > NOISE * range(&windows[2]) && now > SLOWEST * distance.abs()
+    before > 0.0 && now > NOISE * range(&windows.values[2]) && now > SLOWEST * distance.abs()
 }
 
 /// Fraction of the range within a window by which its mean moves if that is not noise; a straight line moves by all of it.
@@ -119,18 +106,15 @@ const SLOWEST: f64 = 0.01;
 /// The kinetic energy of a column that is still to be dissipated, in its unit; 0 if it does not fall.
 fn energy_to_lose(series: &Series, column: &str) -> f64 {
     let Some(drift) = Drift::of(series, column).filter(|drift| drift.rate < 0.0) else { return 0.0 };
-    let [.., last] = windows(series, column).unwrap_or_default();
-    drift.left.min(last.into_iter().fold(0.0, f64::max))
+    drift.left.min(windows(series, column).map_or(0.0, |windows| windows.values[2].iter().copied().fold(0.0, f64::max)))
 }
 
-/// Least-squares slope of a column of `rows` over the time in their first column.
-fn slope(rows: &[Vec<f64>], column: usize) -> f64 {
-    let count = rows.len() as f64;
-    let mean = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>() / count;
-    let (time, value) = (mean(0), mean(column));
-    let moment =
-        |column: usize, about: f64| rows.iter().map(|row| (row[0] - time) * (row[column] - about)).sum::<f64>();
-    moment(column, value) / moment(0, time)
+/// Least-squares slope of a column over the time in the last window.
+fn slope(times: &Windows, column: &Windows) -> f64 {
+    let moment = |of: &Windows| -> f64 {
+        times.values[2].iter().zip(&of.values[2]).map(|(t, x)| (t - times.means[2]) * (x - of.means[2])).sum()
+    };
+    moment(column) / moment(times)
 }
 
 #[cfg(test)]
@@ -170,11 +154,7 @@ mod tests {
     #[test]
     fn an_angle_may_turn_by_what_the_flow_can_still_do() {
         let turn = |energy: fn(f64) -> f64| {
-            let rows = (0..=100).map(|i| f64::from(i) / 100.0).map(|t| vec![t, 22.4, energy(t), 4.0e-3]).collect();
-            let columns = ["time_s", "angle", "energy", "length"].map(str::to_owned).to_vec();
-            let kind =
-                Quantity::Angle { energy: "energy", length: "length", tension: 0.02, at_rest: None, pins: false };
-            let found = Drift::of_watched(&Series { columns, rows }, Watched { column: "angle", kind }, 22.4).unwrap();
+            let found = of_angle(|_| 22.4, energy, None);
             assert!(found.left < 1e-12 && found.rate.abs() < 1e-12, "{found:?}");
             found.by_flow
         };
@@ -188,16 +168,17 @@ mod tests {
         assert_eq!([turn(|t| 1.0e-7 * t), turn(|_| 1.0e-7)], [0.0, 0.0]);
     }
 
-    /// The drift of an angle over the time 1 with an angle at rest of `end`, and its value at the end.
-    fn spreading(angle: impl Fn(f64) -> f64, end: [f64; 2]) -> (Drift, f64) {
-        let rows = (1..=100).map(|i| f64::from(i) / 100.0).map(|t| vec![t, angle(t), 0.0, 4.0e-3]).collect();
+    /// The drift of an angle over the time 1, with a kinetic energy and the angles at rest if they are known.
+    fn of_angle(angle: impl Fn(f64) -> f64, energy: fn(f64) -> f64, at_rest: Option<[f64; 2]>) -> Drift {
+        let rows = (1..=100).map(|i| f64::from(i) / 100.0).map(|t| vec![t, angle(t), energy(t), 4.0e-3]).collect();
         let columns = ["time_s", "angle", "energy", "length"].map(str::to_owned).to_vec();
-        let kind =
-            Quantity::Angle { energy: "energy", length: "length", tension: 0.02, at_rest: Some(end), pins: false };
-        (
-            Drift::of_watched(&Series { columns, rows }, Watched { column: "angle", kind }, angle(1.0)).unwrap(),
-            angle(1.0),
-        )
+        let kind = Quantity::Angle { energy: "energy", length: "length", tension: 0.02, at_rest, pins: false };
+        Drift::of_watched(&Series { columns, rows }, Watched { column: "angle", kind }, angle(1.0)).unwrap()
+    }
+
+    /// The drift of an angle with angles at rest from the first to the second of `end`, and its value at the end.
+    fn spreading(angle: impl Fn(f64) -> f64, end: [f64; 2]) -> (Drift, f64) {
+        (of_angle(&angle, |_| 0.0, Some(end)), angle(1.0))
     }
 
     #[test]

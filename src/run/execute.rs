@@ -125,6 +125,29 @@ pub fn execute(
     Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
 }
 
+/// Runs a case with its solver, which is at time zero, to the same bits without files: its series and its report stay in memory, and its final state in its
+/// solver. `resolved` is the case file with all defaults filled in; `interrupt` stops the run after the present step.
+///
+/// # Errors
+/// [`FileError`] of the watcher. A failing solver, an interrupt or a missed expectation are not errors here: the report states them.
+pub fn run_in_memory(
+    case: &Case,
+    resolved: &str,
+    solver: &mut dyn Solver,
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
+) -> Result<(Report, Series), FileError> {
+    let (clock, mut records) = (Instant::now(), Records::default());
+    let (schedule, steady) = (Schedule::new(&case.output, case.end), case.steady);
+    let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
+    let started = simulation.begin();
+    let ended = started.and_then(|()| simulation.run());
+    let mut report = report(case, resolved, solver, &records, &ended);
+    report.wall_time_s.total = clock.elapsed().as_secs_f64();
+    ended?;
+    Ok((report, records.into_series()))
+}
+
 /// Creates the folder, or loads the saved state in it, with exclusive access.
 fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, Claim), RunError> {
     match job.mode {
@@ -139,7 +162,7 @@ fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, 
 }
 
 /// The report of a run, given how it `ended`, without its total times.
-pub(super) fn report(
+fn report(
     case: &Case,
     resolved: &str,
     solver: &dyn Solver,

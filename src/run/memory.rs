@@ -58,6 +58,11 @@ pub(crate) fn free() -> Option<u64> {
     Some(free.min(limit.unwrap_or(u64::MAX)))
 }
 
+/// Peak memory in bytes of this process so far, if the system reports it.
+pub(crate) fn peak() -> Option<u64> {
+    kibibytes(&std::fs::read_to_string("/proc/self/status").ok()?, "VmHWM:")
+}
+
 /// The remaining address space of this process in bytes; `None` if it has no limit or the system does not report it.
 fn address_space() -> Option<u64> {
     let limit = address_space_limit(&std::fs::read_to_string("/proc/self/limits").ok()?)?;

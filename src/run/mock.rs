@@ -4,11 +4,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::simulation::{Progress, Watcher};
-use crate::case::{
-    Case, Compression, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Output, Side, Sides, Sph,
-    Walls, numerics,
-};
-use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::case::{Case, Expectation, load_given};
+use crate::input::Overrides;
 use crate::math::{Vec2, perpendicular};
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
 use crate::solver::{
@@ -154,48 +151,11 @@ impl Watcher for Interrupter<'_> {
 
 /// A case of one second with 11 rows, 6 VTK records and 3 saved states after time zero; its SPH settings are not used.
 pub(crate) fn case() -> Case {
-    let wetting = Fluid { density: 1000.0, viscosity: 1.0e-3 };
-    let sph = Sph {
-        spacing: 1.0 / 6.0,
-        reference_length: None,
-        smoothing_ratio: 1.5,
-        depth: None,
-        profile_factor: None,
-        wetting,
-        non_wetting: None,
-        tension: 0.0,
-        surface_force: None,
-        wetting_model: None,
-        wetting_patches: Vec::new(),
-        gravity: Vec2::zeros(),
-        sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
-        walls: Walls { slip_length: 0.0, line_slip_length: 0.0 },
-        wall_speeds: [0.0; 4],
-        open: [None; 4],
-        initial: Initial {
-            wetting: Vec::new(),
-            wetting_is_background: true,
-            key: "sph.initial.wetting",
-            network: None,
-            velocity: InitialVelocity::Rest,
-        },
-        numerics: numerics::default(None),
-        measure: MeasureSet::default(),
-    };
-    Case {
-        title: "Particles on circles".into(),
-        geometry: GeometrySpec { min: [0.0; 2], max: [1.0; 2], solid: SolidSide::Inside, shapes: Vec::new() },
-        depth: None,
-        model: Model::Sph(Box::new(sph)),
-        end: 1.0,
-        steady: None,
-        output: Output {
-            series_every: 0.1,
-            vtk_every: 0.2,
-            vtk_compression: Compression::Zlib,
-            grid_ratio: 1.0,
-            restart_every: 0.4,
-        },
-        expect: vec![Expectation { measure: "radius-m".into(), value: 1.0 / 3.0, tolerance: 1.0e-9 }],
-    }
+    let text = "format = 1\ntitle = \"Particles on circles\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\n\
+                [sph]\nspacing = 0.05\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1e-3\n[time]\nend = 1.0\n\
+                [output]\nseries.every-time = 0.1\nvtk.every-time = 0.2\nrestart.every-time = 0.4\n";
+    let case =
+        load_given("mock", text, &Overrides::default()).unwrap_or_else(|error| panic!("{}", error.render())).case;
+    let expect = Expectation { measure: "radius-m".into(), value: 1.0 / 3.0, tolerance: 1.0e-9 };
+    Case { expect: vec![expect], ..case }
 }

@@ -16,7 +16,6 @@ pub mod execute;
 mod extension;
 pub(crate) mod folder;
 pub(crate) mod folder_error;
-pub mod in_memory;
 pub(crate) mod memory;
 #[cfg(test)]
 pub(crate) mod mock;

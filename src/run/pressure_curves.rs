@@ -1,12 +1,15 @@
 //! The capillary pressure curves of several network runs in one diagram, read from their files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::diagram::{Diagram, Stroke, Trace};
 use crate::io::diagram::{DiagramError, svg};
 
 /// Name of the diagram: its file is `capillary-pressure.svg`.
 pub(crate) const NAME: &str = "capillary-pressure";
+/// Its title, and what is along x and y.
+pub(crate) const TITLE: &str = "Capillary pressure over saturation";
+pub(crate) const LABELS: [&str; 2] = ["saturation of the wetting phase", "capillary pressure p_n - p_w in Pa"];
 /// With films, the curve at every pressure.
 const CURVE: &str = "capillary_pressure.csv";
 /// Otherwise saturations change only at events.
@@ -22,23 +25,15 @@ struct Row {
 }
 
 /// The named curves of the runs in these folders, as SVG; `None` if no run has one.
-pub(crate) fn overlay(runs: &[(String, &Path)]) -> Result<Option<String>, DiagramError> {
-    let trace = |(name, folder): &(String, &Path)| {
+pub(crate) fn overlay(runs: &[(String, PathBuf)]) -> Result<Option<String>, DiagramError> {
+    let trace = |(name, folder): &(String, PathBuf)| {
         Some(Trace { name: name.clone(), stroke: Stroke::Full, points: curve(folder)? })
     };
     let traces: Vec<Trace> = runs.iter().filter_map(trace).collect();
     if traces.is_empty() {
         return Ok(None);
     }
-    let axis = |label| Axis { label, logarithmic: false };
-    svg(&Diagram {
-        name: NAME,
-        title: "Capillary pressure over saturation",
-        x: axis("saturation of the wetting phase"),
-        y: axis("capillary pressure p_n - p_w in Pa"),
-        map: None,
-        traces,
-    })
+    svg(&Diagram::linear(NAME, TITLE, LABELS, traces))
 }
 
 /// The curve of the quasi-static displacement in a folder, half cycles joined.
@@ -84,7 +79,8 @@ mod tests {
         let stairs = [[1.0, 10.0], [0.5, 10.0], [0.5, 20.0], [0.25, 20.0], [0.25, 5.0], [0.375, 5.0], [0.75, 5.0]];
         assert_eq!(curve(folder.path()).unwrap(), stairs);
         let empty = tempfile::tempdir().unwrap();
-        let runs = [("angle = 40".to_owned(), folder.path()), ("angle = 60".to_owned(), empty.path())];
+        let runs =
+            [("angle = 40", &folder), ("angle = 60", &empty)].map(|(name, it)| (name.to_owned(), it.path().to_owned()));
         let drawn = overlay(&runs).unwrap().unwrap();
         assert!(drawn.contains("angle = 40") && !drawn.contains("angle = 60"));
         assert_eq!(overlay(&runs[1..]).unwrap(), None);

@@ -5,11 +5,12 @@ use std::time::Instant;
 
 use super::processor_time::ProcessorTime;
 use super::schedule::Due;
-use super::sink::{Frame, SeriesSink, Start, VtkFiles, write_units};
+use super::sink::{Frame, Start, VtkFiles, write_units};
 use super::writer::{Record, Writer};
 use crate::io::frames::{self, FrameList};
 use crate::io::journal::Mark;
 use crate::io::restart::Saved;
+use crate::io::series::SeriesFile;
 use crate::io::vtk::Compression;
 use crate::io::{FileError, atomic, pvd, vtk};
 use crate::solver::{PartTime, Series, Solver};
@@ -17,7 +18,7 @@ use crate::solver::{PartTime, Series, Solver};
 /// The records of a run, and their wall time.
 #[derive(Default)]
 pub(crate) struct Records {
-    series: SeriesSink,
+    series: SeriesFile,
     files: Option<Files>,
     seconds: [f64; 3],
 }
@@ -43,12 +44,13 @@ impl Records {
         compression: Compression,
         processor_time: ProcessorTime,
     ) -> Result<Self, FileError> {
-        let (written, list) = match start {
-            Start::New => (Vec::new(), FrameList::new(folder)),
-            Start::Resumed { frames, .. } => (frames::read(folder, frames)?, FrameList::resume(folder, frames)?),
+        let (series, written, list) = match start {
+            Start::New => (SeriesFile::new(folder), Vec::new(), FrameList::new(folder)),
+            Start::Resumed { series, frames } => {
+                (SeriesFile::resume(folder, series)?, frames::read(folder, frames)?, FrameList::resume(folder, frames)?)
+            }
         };
         pvd::rebuild(folder, &written)?;
-        let series = SeriesSink::new(folder, start)?;
         let writer = Writer::start(folder, VtkFiles::new(folder, written, compression), list)?;
         let files = Files { folder: folder.to_path_buf(), writer, processor_time, case_hash, compression };
         Ok(Self { series, files: Some(files), seconds: [0.0; 3] })
@@ -103,7 +105,8 @@ impl Records {
         let mut clock = Instant::now();
         let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
         if due.series {
-            self.series.record(solver)?;
+            let (columns, row): (Vec<&str>, Vec<f64>) = solver.sample().iter().map(|it| (it.name, it.value)).unzip();
+            self.series.record(&columns, row)?;
         }
         self.seconds[0] += lap();
         let Some(files) = &mut self.files else { return Ok(()) };

@@ -97,20 +97,10 @@ fn multiple(count: f64, every: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Compression;
     use proptest::prelude::*;
 
     fn schedule(series: f64, vtk: f64, restart: f64, end: f64) -> Schedule {
-        Schedule::new(
-            &Output {
-                series_every: series,
-                vtk_every: vtk,
-                vtk_compression: Compression::Zlib,
-                grid_ratio: 1.0,
-                restart_every: restart,
-            },
-            end,
-        )
+        Schedule { series, vtk, restart, end }
     }
 
     fn stops(schedule: &Schedule) -> Vec<Stop> {

@@ -7,11 +7,10 @@ use crate::case::{self, Output};
 use crate::io::frames::{FrameList, Written};
 use crate::io::journal::Mark;
 use crate::io::pvd::Collection;
-use crate::io::series::SeriesFile;
 use crate::io::vtk::{self, Compression, VtkError};
 use crate::io::{FileError, atomic};
 use crate::snapshot::{Layer, Snapshot};
-use crate::solver::{Series, Solver};
+use crate::solver::Solver;
 
 /// The data of the solver for VTK files, copied so that the solver can continue while they are written.
 pub(crate) struct Frame {
@@ -121,46 +120,4 @@ pub(crate) fn write_units(folder: &Path, frame: &Frame) -> Result<(), FileError>
     let text = serde_json::to_string_pretty(&units)
         .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
     atomic::write(&path, (text + "\n").as_bytes())
-}
-
-/// The series, and `series.csv` if the run writes files.
-#[derive(Default)]
-pub(crate) struct SeriesSink(SeriesFile);
-
-impl SeriesSink {
-    /// The series of a run.
-    ///
-    /// # Errors
-    /// [`FileError`] if the file of a resumed run cannot be read.
-    pub(crate) fn new(folder: &Path, start: Start) -> Result<Self, FileError> {
-        Ok(Self(match start {
-            Start::New => SeriesFile::new(folder),
-            Start::Resumed { series, .. } => SeriesFile::resume(folder, series)?,
-        }))
-    }
-
-    /// Adds the row of the solver's present state. An earlier record of the same time is replaced, never duplicated.
-    ///
-    /// # Errors
-    /// [`FileError`] with the path and a remedy.
-    pub(crate) fn record(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
-        let (columns, row): (Vec<&str>, Vec<f64>) =
-            solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
-        self.0.record(&columns, row)
-    }
-
-    /// The extent of the file so far.
-    pub(crate) fn mark(&self) -> Mark {
-        self.0.mark()
-    }
-
-    /// All rows so far.
-    pub(crate) fn series(&self) -> &Series {
-        self.0.series()
-    }
-
-    /// All rows, after the last one.
-    pub(crate) fn into_series(self) -> Series {
-        self.0.into_series()
-    }
 }

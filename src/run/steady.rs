@@ -95,20 +95,35 @@ fn window(time: f64, steady: &SteadyStop) -> f64 {
     steady.window.unwrap_or(SHARE * time)
 }
 
-/// The state of each quantity that exists at the last of `rows`; `None` if a window has too few of them.
+/// The state of each quantity that exists at the last of `rows`; none if a window has too few of them.
 fn changes(rows: &[Vec<f64>], columns: &[String], watched: &[Watched], steady: &SteadyStop) -> Vec<Change> {
-    let Some(windows) = last_windows(rows, steady) else { return Vec::new() };
-    let column = |name: &str| columns.iter().position(|column| column == name);
-    let values = |name: &str| {
-        let column = column(name)?;
-        let values = windows.map(|window| window.iter().map(|row| row[column]).collect::<Vec<f64>>());
-        values.iter().flatten().any(|value| !value.is_nan()).then_some(values)
+    let windows = |name: &str| {
+        let windows = Windows::of(rows, columns, name, steady)?;
+        windows.values.iter().flatten().any(|value| !value.is_nan()).then_some(windows)
     };
-    watched.iter().filter_map(|one| Some(change(one, &values(one.column)?, steady, &values))).collect()
+    watched.iter().filter_map(|one| Some(change(one, &windows(one.column)?, steady, &windows))).collect()
+}
+
+/// A column in the three windows that end at the last row.
+pub(super) struct Windows {
+    /// Its values.
+    pub(super) values: [Vec<f64>; 3],
+    /// Their means.
+    pub(super) means: [f64; 3],
+}
+
+impl Windows {
+    /// `None` if there is no such column, or if a window has too few rows.
+    pub(super) fn of(rows: &[Vec<f64>], columns: &[String], column: &str, steady: &SteadyStop) -> Option<Self> {
+        let column = columns.iter().position(|one| one == column)?;
+        let values = last_windows(rows, steady)?.map(|rows| rows.iter().map(|row| row[column]).collect::<Vec<f64>>());
+        let means = values.each_ref().map(|values| values.iter().sum::<f64>() / values.len() as f64);
+        Some(Self { values, means })
+    }
 }
 
 /// The rows of the three windows that end at the last row.
-pub(super) fn last_windows<'r>(rows: &'r [Vec<f64>], steady: &SteadyStop) -> Option<[&'r [Vec<f64>]; 3]> {
+fn last_windows<'r>(rows: &'r [Vec<f64>], steady: &SteadyStop) -> Option<[&'r [Vec<f64>]; 3]> {
     let now = *rows.last()?.first()?;
     let length = window(now, steady);
     // A window includes its end, not its start.
@@ -122,24 +137,20 @@ pub(super) fn last_windows<'r>(rows: &'r [Vec<f64>], steady: &SteadyStop) -> Opt
     windows.iter().all(|rows| rows.len() as f64 >= FEWEST_ROWS).then_some(windows)
 }
 
-type Windows = [Vec<f64>; 3];
-
 fn change(
     watched: &Watched,
-    values: &Windows,
+    Windows { values, means }: &Windows,
     steady: &SteadyStop,
     others: &dyn Fn(&str) -> Option<Windows>,
 ) -> Change {
-    let means = [0, 1, 2].map(|i| values[i].iter().sum::<f64>() / values[i].len() as f64);
     let mean = means[2];
     if let Quantity::Energy { speed, capillary_speed: Some(capillary_speed) } = watched.kind
-        && let Some([_, _, speeds]) = others(speed)
+        && let Some(speeds) = others(speed)
     {
-        let largest = speeds.iter().copied().fold(0.0, f64::max);
+        let largest = speeds.values[2].iter().copied().fold(0.0, f64::max);
         let tolerance = steady.capillary_number * capillary_speed;
         if largest <= tolerance {
-            let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
-            return Change { column: speed, mean, change: largest, tolerance };
+            return Change { column: speed, mean: speeds.means[2], change: largest, tolerance };
         }
     }
     let tolerance = match watched.kind {
@@ -150,7 +161,7 @@ fn change(
     };
     let range = range(&values[2]);
     // A value missing in one of the windows leaves the decision open.
-    let change = if means.iter().all(|mean| mean.is_finite()) { left(means).max(range) } else { f64::NAN };
+    let change = if means.iter().all(|mean| mean.is_finite()) { left(*means).max(range) } else { f64::NAN };
     Change { column: watched.column, mean, change, tolerance }
 }
 

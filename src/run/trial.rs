@@ -5,6 +5,7 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 
 use super::execute::drawn;
+use super::memory;
 use super::schedule::Schedule;
 use super::sink::compression;
 use crate::case::Case;
@@ -99,7 +100,7 @@ fn trial_within(
         limit: info.limit.to_owned(),
         steps,
         duration_s: steps * per_step + records * per_record,
-        memory_bytes: memory(),
+        memory_bytes: memory::peak(),
     })
 }
 
@@ -113,14 +114,6 @@ fn steps_between(schedule: &Schedule, mut time: f64, dt: f64) -> f64 {
         time = stop.time;
     }
     steps
-}
-
-/// Peak memory of the program so far in bytes, if the system reports it.
-fn memory() -> Option<u64> {
-    const BYTES_PER_KIBIBYTE: u64 = 1024;
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.split_whitespace().next()?.parse::<u64>().ok().map(|kibibytes| kibibytes * BYTES_PER_KIBIBYTE)
 }
 
 #[cfg(test)]

@@ -27,17 +27,6 @@ pub struct NetworkRun {
     pub records: usize,
 }
 
-/// The direct simulation of a run.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct DirectRun<'a> {
-    /// Its base case.
-    pub(crate) case: &'a Path,
-    /// Where the base case is given: a key path in the study file.
-    pub(crate) origin: &'a str,
-    /// The differences from it.
-    pub(crate) assignments: &'a [Assignment],
-}
-
 /// The network of a run with its checked case.
 #[derive(Debug, Clone)]
 pub struct PlannedNetwork {
@@ -73,10 +62,11 @@ pub(super) fn split(plan: &ComparisonPlan, assignments: &mut Vec<Assignment>) ->
 /// All mistakes of both, or why they cannot be compared.
 pub(super) fn plan(
     study: &Study,
-    direct: &DirectRun<'_>,
+    case: &Path,
+    origin: &str,
+    assignments: &[Assignment],
     network: &NetworkRun,
 ) -> Result<(Loaded, PlannedNetwork), InputError> {
-    let &DirectRun { case, origin, assignments } = direct;
     let (mut direct, other) = both(load(case, assignments), load(&network.case, &network.assignments))?;
     let records = network.records;
     let of_direct = direct.resolved;

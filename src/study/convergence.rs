@@ -1,9 +1,7 @@
 //! Errors along a parameter, usually a spacing, in runs that are otherwise equal, and their observed orders.
 
-use std::collections::BTreeMap;
-
 use super::definition::{Choice, Column, Study, Target, Trend};
-use super::results::RunResult;
+use super::results::{RunResult, grouped};
 use super::values::{same, shown};
 use crate::analysis::convergence::observed_order;
 
@@ -75,21 +73,10 @@ pub(crate) fn groups<'a>(
         .flat_map(|(axis, from)| axis.columns.iter().filter(move |column| follows(column, from)))
         .map(|column| column.name.as_str())
         .collect();
-    let group = |result: &RunResult| {
+    grouped(results, |result| {
         let others = result.run.parameters.iter().filter(|p| !together.contains(&p.name.as_str()));
         others.map(|p| format!("{}={}", p.name, shown(&p.value))).collect::<Vec<_>>().join(" ")
-    };
-    let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
-    let mut indices: BTreeMap<String, usize> = BTreeMap::new();
-    for result in results {
-        let name = group(result);
-        let index = *indices.entry(name.clone()).or_insert(groups.len());
-        if index == groups.len() {
-            groups.push((name, Vec::new()));
-        }
-        groups[index].1.push(result);
-    }
-    groups
+    })
 }
 
 /// The spacing that varies, if one does.

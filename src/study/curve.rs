@@ -1,21 +1,12 @@
 //! The curves of a study as SVG: measures or errors over a parameter, one line per value of another parameter.
 
-use plotters::coord::combinators::BindKeyPoints;
-use plotters::prelude::*;
-
 use super::definition::{Curve, Quantity};
 use super::raw::RawScale;
 use super::results::{RunResult, measures};
 use super::values::shown;
 use crate::analysis::convergence::observed_order;
-use crate::io::axes::{DrawingError, LEGEND, NumberAxis, color_of, draw_legend, logarithmic_ticks, range, short};
-
-/// Width and height of the drawing in pixels.
-const SIZE: (u32, u32) = (720, 480);
-/// A curve that cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct CurveError(String);
+use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::io::diagram::{DiagramError, Layout, svg_with};
 
 /// A point of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +31,7 @@ pub(crate) struct Line {
     /// Points by increasing x.
     pub points: Vec<Point>,
     /// Reference values of y, by increasing x.
-    pub reference: Vec<(f64, f64)>,
+    pub reference: Vec<[f64; 2]>,
 }
 
 /// The parameters whose values separate the lines of a curve: its series and, if a line would have two values at one x, others that vary.
@@ -89,50 +80,50 @@ pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
         }
         if let Some(reference) = reference.filter(|r| !curve.error && fits(curve.x_scale, x) && fits(curve.y_scale, *r))
         {
-            lines[index].reference.push((x, reference));
+            lines[index].reference.push([x, reference]);
         }
     }
     for line in &mut lines {
         line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
-        line.reference.sort_by(|a, b| a.0.total_cmp(&b.0));
+        line.reference.sort_by(|a, b| a[0].total_cmp(&b[0]));
     }
     lines.retain(|line| !line.points.is_empty());
     lines
 }
 
 /// Draws a curve; `None` if there is no point yet.
-pub(crate) fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, CurveError> {
+pub(crate) fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, DiagramError> {
     let lines = lines(curve, results);
-    if lines.is_empty() {
-        return Ok(None);
-    }
-    let whiskers = |point: &Point| {
-        let u = point.uncertainty.filter(|_| !curve.error).unwrap_or(0.0);
-        [point.y - u, point.y + u]
+    let axis = |label: String, scale| Axis { label: label.into(), logarithmic: scale == RawScale::Logarithmic };
+    let diagram = Diagram {
+        name: "curve",
+        title: curve.title.clone().into(),
+        x: axis(curve.x.clone(), curve.x_scale),
+        y: axis(y_label(curve, results), curve.y_scale),
+        map: None,
+        traces: lines.iter().flat_map(|line| traces(curve, line)).collect(),
     };
-    let all_x = lines.iter().flat_map(|line| line.points.iter().map(|point| point.x));
-    let all_y = lines
-        .iter()
-        .flat_map(|line| line.points.iter().flat_map(whiskers).chain(line.reference.iter().map(|point| point.1)));
-    let x = range(all_x, curve.x_scale == RawScale::Logarithmic);
-    let y = range(all_y, curve.y_scale == RawScale::Logarithmic);
-    let labels = (curve.x.clone(), y_label(curve, results));
-    let mut text = String::new();
-    let x_ticks = distinct(&lines).filter(|_| curve.x_scale == RawScale::Logarithmic);
-    let log = |range: std::ops::Range<f64>, ticks: Option<Vec<f64>>| {
-        let ticks = ticks.unwrap_or_else(|| logarithmic_ticks(&range));
-        range.log_scale().with_key_points(ticks)
+    let layout = Layout { size: (720, 480), title: 20, x_labels: 11, x_ticks: distinct(&lines) };
+    svg_with(&diagram, &layout)
+}
+
+/// A line with the error bars and marks of its points, and its reference.
+fn traces(curve: &Curve, line: &Line) -> Vec<Trace> {
+    let unnamed = |stroke, points| Trace { name: String::new(), stroke, points };
+    let all: Vec<[f64; 2]> = line.points.iter().map(|point| [point.x, point.y]).collect();
+    let mut traces = vec![Trace { name: legend(curve, line), stroke: Stroke::Full, points: all.clone() }];
+    let bar = |point: &Point| {
+        let uncertainty = point.uncertainty.filter(|_| !curve.error)?;
+        Some(unnamed(Stroke::Bar, [-uncertainty, uncertainty].map(|u| [point.x, point.y + u]).to_vec()))
     };
-    let drawn = match (curve.x_scale, curve.y_scale) {
-        (RawScale::Linear, RawScale::Linear) => draw(&mut text, curve, &lines, labels, x, y),
-        (RawScale::Logarithmic, RawScale::Linear) => draw(&mut text, curve, &lines, labels, log(x, x_ticks), y),
-        (RawScale::Linear, RawScale::Logarithmic) => draw(&mut text, curve, &lines, labels, x, log(y, None)),
-        (RawScale::Logarithmic, RawScale::Logarithmic) => {
-            draw(&mut text, curve, &lines, labels, log(x, x_ticks), log(y, None))
-        }
-    };
-    drawn.map_err(|error| CurveError(error.to_string()))?;
-    Ok(Some(text))
+    traces.extend(line.points.iter().filter_map(bar));
+    // White below the rings of points that are not at rest.
+    traces.push(unnamed(Stroke::Blank, all));
+    let mark =
+        |point: &Point| unnamed(if point.is_at_rest { Stroke::Disc } else { Stroke::Ring }, vec![[point.x, point.y]]);
+    traces.extend(line.points.iter().map(mark));
+    traces.push(unnamed(Stroke::Reference, line.reference.clone()));
+    traces
 }
 
 /// The values of x if they are few enough for tick labels.
@@ -171,59 +162,6 @@ fn legend(curve: &Curve, line: &Line) -> String {
         .flatten()
         .collect::<Vec<_>>()
         .join(", ")
-}
-
-fn draw<'a>(
-    text: &'a mut String,
-    curve: &Curve,
-    lines: &[Line],
-    (x_label, y_label): (String, String),
-    x: impl NumberAxis,
-    y: impl NumberAxis,
-) -> Result<(), DrawingError<'a>> {
-    let name = |(number, line)| (legend(curve, line), color_of(number));
-    let names: Vec<(String, RGBColor)> = lines.iter().enumerate().map(name).collect();
-    let named = names.iter().any(|(name, _)| !name.is_empty());
-    let width = SIZE.0 + if named { LEGEND } else { 0 };
-    let canvas = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
-    canvas.fill(&WHITE)?;
-    let (area, margin) = canvas.split_horizontally(SIZE.0);
-    if named {
-        draw_legend(&margin, &names)?;
-    }
-    let mut chart = ChartBuilder::on(&area)
-        .caption(&curve.title, ("sans-serif", 20))
-        .margin(12)
-        .x_label_area_size(48)
-        .y_label_area_size(84)
-        .build_cartesian_2d(x, y)?;
-    let number = |value: &f64| short(*value);
-    chart
-        .configure_mesh()
-        .x_desc(x_label)
-        .y_desc(y_label)
-        .label_style(("sans-serif", 14))
-        .axis_desc_style(("sans-serif", 15))
-        .light_line_style(RGBColor(240, 240, 240))
-        .x_label_formatter(&number)
-        .y_label_formatter(&number)
-        .draw()?;
-    for (number, line) in lines.iter().enumerate() {
-        let color = color_of(number);
-        let points = || line.points.iter().map(|point| (point.x, point.y));
-        chart.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
-        let bars = line
-            .points
-            .iter()
-            .filter_map(|point| Some((point.x, point.y, point.uncertainty.filter(|_| !curve.error)?)));
-        chart.draw_series(bars.map(|(x, y, u)| PathElement::new([(x, y - u), (x, y + u)], color)))?;
-        // White below the rings of points that are not at rest.
-        chart.draw_series(points().map(|point| Circle::new(point, 4, WHITE.filled())))?;
-        let style = |point: &Point| if point.is_at_rest { color.filled() } else { color.stroke_width(2) };
-        chart.draw_series(line.points.iter().map(|point| Circle::new((point.x, point.y), 4, style(point))))?;
-        chart.draw_series(DashedLineSeries::new(line.reference.iter().copied(), 6, 4, color.into()))?;
-    }
-    canvas.present()
 }
 
 #[cfg(test)]
@@ -274,7 +212,7 @@ mod tests {
         // The spacing 0 cannot be shown on a logarithmic axis.
         assert_eq!(found.len(), 2);
         assert_eq!((found[1].name.as_str(), found[1].points.len()), ("angle = 60", 2));
-        assert_eq!(found[1].reference, [(0.1, 60.0), (0.2, 60.0)]);
+        assert_eq!(found[1].reference, [[0.1, 60.0], [0.2, 60.0]]);
         let text = svg(&study.report.curves[1], &results).unwrap().unwrap();
         assert!(text.starts_with("<svg") && text.matches("order 2.00").count() == 2, "{text}");
         assert!(text.contains("|m − angle| in deg") && !text.contains("NaN"));

@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
 
 use super::child::Program;
 use super::run::PlannedRun;
@@ -23,43 +24,31 @@ pub(crate) struct Cores {
     pub(crate) jobs: usize,
 }
 
-/// Estimates of runs in their order. `kept` is a file of earlier ones, which is read if it exists and written if `write` is set; an interrupt leaves the rest
+/// Estimates of runs in their order. `path` is a file of earlier ones, which is read if it exists and written if `write` is set; an interrupt leaves the rest
 /// unknown.
 pub(crate) fn estimates(
     runs: &[PlannedRun],
     program: &Program,
     cores: Cores,
-    kept: (&Path, bool),
+    path: &Path,
+    write: bool,
     interrupt: &AtomicBool,
 ) -> Vec<Estimate> {
-    let (path, write) = kept;
-    let mut known: BTreeMap<String, Trial> = read(path);
+    // A missing or damaged file only costs another trial.
+    let kept = std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    let mut known: BTreeMap<String, Trial> = kept.unwrap_or_default();
     let key = |run: &PlannedRun| format!("{}-{}", run.digest(), cores.threads);
-    let next = AtomicUsize::new(0);
-    let found: Mutex<BTreeMap<usize, Estimate>> = Mutex::new(BTreeMap::new());
-    let work = || {
-        while let Some((number, run)) = take(&next, runs) {
-            let estimate = if interrupt.load(Ordering::Relaxed) {
-                Err("interrupted".to_owned())
-            } else if let Some(trial) = known.get(&key(run)) {
-                Ok(trial.clone())
-            } else {
-                tried(program, run, cores.threads)
-            };
-            // A poisoned lock means that another thread panicked, which ends the program anyway.
-            if let Ok(mut found) = found.lock() {
-                found.insert(number, estimate);
-            }
+    let estimate = |run: &PlannedRun| {
+        if interrupt.load(Ordering::Relaxed) {
+            return Err("interrupted".to_owned());
         }
+        known.get(&key(run)).map_or_else(|| tried(program, run, cores.threads), |trial| Ok(trial.clone()))
     };
-    std::thread::scope(|scope| {
-        for _ in 0..cores.jobs.min(runs.len()) {
-            scope.spawn(work);
-        }
-    });
-    let mut found = found.into_inner().unwrap_or_default();
-    let estimates: Vec<Estimate> =
-        (0..runs.len()).map(|number| found.remove(&number).unwrap_or_else(|| Err("not tried".to_owned()))).collect();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(cores.jobs.min(runs.len()).max(1)).build();
+    let estimates: Vec<Estimate> = match pool {
+        Ok(pool) => pool.install(|| runs.par_iter().map(estimate).collect()),
+        Err(_) => runs.iter().map(estimate).collect(),
+    };
     for (run, estimate) in runs.iter().zip(&estimates) {
         if let Ok(trial) = estimate {
             known.insert(key(run), trial.clone());
@@ -70,17 +59,6 @@ pub(crate) fn estimates(
         let _ = atomic::write(path, &text);
     }
     estimates
-}
-
-/// The next run that is not taken.
-fn take<'a>(next: &AtomicUsize, runs: &'a [PlannedRun]) -> Option<(usize, &'a PlannedRun)> {
-    let number = next.fetch_add(1, Ordering::Relaxed);
-    runs.get(number).map(|run| (number, run))
-}
-
-fn read(path: &Path) -> BTreeMap<String, Trial> {
-    // A missing or damaged file only costs another trial.
-    std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
 }
 
 fn tried(program: &Program, run: &PlannedRun, threads: usize) -> Estimate {

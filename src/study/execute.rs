@@ -72,7 +72,7 @@ fn attempt(
     watcher: &mut dyn Watcher,
 ) -> Result<End, ExecuteError> {
     if let Some(network) = &planned.network {
-        return compared(planned, network, (path, mode), interrupt, watcher);
+        return compared(planned, network, path, mode, interrupt, watcher);
     }
     let built = match mode {
         Mode::New => setup::build(&planned.case),
@@ -96,7 +96,8 @@ fn saved_state(path: &Path, planned: &PlannedRun) -> PathBuf {
 fn compared(
     planned: &PlannedRun,
     network: &PlannedNetwork,
-    (folder, mode): (&Path, Mode),
+    folder: &Path,
+    mode: Mode,
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<End, ExecuteError> {

@@ -3,14 +3,15 @@
 //! `study.lock` marks a folder as that of a study. A process that does all runs has it exclusively, processes that do one run each share it; each run has its
 //! own lock. The locks are those of the operating system, which releases them when a process ends, however it ends: none is ever left over.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{Read, Seek, Write};
+use std::fs::{self, File, TryLockError};
+use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use super::definition::Study;
 use crate::io::{FileError, atomic};
+use crate::run::claim::{holder, open};
 
 /// Name of the lock.
 const LOCK: &str = "study.lock";
@@ -115,14 +116,10 @@ impl StudyFolder {
         }
         let mut file = open(&path)?;
         if !try_lock(&file, share, &path)? {
-            let mut by = String::new();
-            // For the message only: without it, the message is shorter.
-            let _ = file.read_to_string(&mut by);
-            let by = if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) };
-            return Err(FolderError::InUse { folder: self.root.clone(), by });
+            return Err(FolderError::InUse { folder: self.root.clone(), by: holder(&mut file) });
         }
         if share == Share::Alone {
-            // For the message only, as above.
+            // For the message of others only.
             let _ = file.set_len(0).and_then(|()| file.rewind());
             let _ = writeln!(file, "process {}", std::process::id());
         }
@@ -142,11 +139,6 @@ impl StudyFolder {
         }
         Ok(Some(Claim { _lock: file }))
     }
-}
-
-fn open(path: &Path) -> Result<File, FolderError> {
-    let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-    Ok(opened.map_err(FileError::write(path))?)
 }
 
 fn try_lock(file: &File, share: Share, path: &Path) -> Result<bool, FolderError> {
@@ -177,21 +169,6 @@ mod tests {
         assert!(matches!(folder.claim(Share::Alone), Err(FolderError::InUse { .. })));
         drop(together);
         folder.claim(Share::Alone).unwrap();
-    }
-
-    #[test]
-    fn a_lock_that_a_dead_process_left_is_no_obstacle() {
-        let root = tempfile::tempdir().unwrap();
-        fs::write(root.path().join(LOCK), "process 1\n").unwrap();
-        StudyFolder::new(root.path()).claim(Share::Alone).unwrap();
-    }
-
-    #[test]
-    fn a_folder_with_other_files_is_refused() {
-        let root = tempfile::tempdir().unwrap();
-        fs::write(root.path().join("thesis.tex"), "").unwrap();
-        assert!(matches!(StudyFolder::new(root.path()).claim(Share::Alone), Err(FolderError::Foreign(_))));
-        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
     }
 
     #[test]

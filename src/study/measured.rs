@@ -23,13 +23,13 @@ pub(super) fn problems(study: &Study, planned: &[PlannedRun]) -> Vec<Problem> {
     expected.chain(trends).chain(curves).chain(table).flatten().collect()
 }
 
-/// What a study names of its measures; none where its report lists all of them.
-pub(super) fn names(study: &Study) -> Option<Vec<&str>> {
-    let table = study.report.measures.as_ref()?.iter();
+/// What a study names of its measures.
+pub(super) fn names(study: &Study) -> impl Iterator<Item = &str> {
+    let table = study.report.measures.iter().flatten();
     let expected = study.expectations.iter().map(|one| &one.measure);
     let trends = study.trends.iter().map(|one| &one.measure);
     let curves = study.report.curves.iter().flat_map(|curve| [&curve.x, &curve.y]);
-    Some(table.chain(expected).chain(trends).chain(curves).map(String::as_str).collect())
+    table.chain(expected).chain(trends).chain(curves).map(String::as_str)
 }
 
 struct Names<'a> {

@@ -143,21 +143,14 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
 fn push_pictures(html: &mut String, results: &[RunResult]) {
     html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
     for result in results.iter().filter(|result| result.state.report().is_some()) {
-        let (name, caption) = (escaped(&result.run.name), caption(result));
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            html,
-            "<figure><a href=\"runs/{name}/picture.png\"><img loading=\"lazy\" src=\"runs/{name}/picture.png\" \
-             alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>"
-        );
+        *html += &html::figure(&format!("runs/{}/picture.png", escaped(&result.run.name)), &caption(result));
     }
     html.push_str("</div>\n");
 }
 
 /// The parameters of a run with their values.
 fn caption(result: &RunResult) -> String {
-    let parameters = result.run.parameters.iter().map(|p| format!("{} = {}", p.name, shown(&p.value)));
-    escaped(&parameters.collect::<Vec<_>>().join(", "))
+    escaped(&result.run.values(|_| true))
 }
 
 /// The curves of network and direct simulation of each run; the whole comparison is in the folder of the run.

@@ -7,7 +7,7 @@ use crate::io::html::escaped;
 /// The statistics and figures of the samples.
 #[derive(Debug)]
 pub(crate) struct Uncertainty<'f> {
-    /// Quantiles, indices and their convergence.
+    /// Quantiles, indices and their convergence, for readers.
     pub(crate) statistics: Statistics,
     /// The distribution of the saturation at breakthrough as SVG, if runs have one.
     pub(crate) distribution: Option<String>,
@@ -37,16 +37,16 @@ impl Uncertainty<'_> {
             html += &format!("<div class=\"curves\">{svg}</div>\n");
         }
         html += "<h3>Quantiles</h3>\n<p>All digits: <a href=\"quantiles.csv\">quantiles.csv</a>.</p>\n<div class=\"wide\">\n";
-        html += &self.statistics.short.html();
+        html += &self.statistics.quantiles.html();
         html += "</div>\n";
-        if let Some(indices) = &self.statistics.short_indices {
+        if let Some(indices) = &self.statistics.indices {
             html += "<h3>Sobol indices</h3>\n<p>Share of the variance that an input causes alone (first order), and with all its interactions (total).\n\
                      All digits: <a href=\"indices.csv\">indices.csv</a>.</p>\n";
             html += &indices.html();
         }
         html += "<h3>Convergence</h3>\n<p>The estimates from an eighth, a quarter, half and all of the samples: \
                  <a href=\"convergence.csv\">convergence.csv</a>.</p>\n<div class=\"wide\">\n";
-        html += &self.statistics.short_convergence.html();
+        html += &self.statistics.convergence.html();
         html + "</div>\n"
     }
 }

@@ -4,18 +4,18 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::convergence::{self, Convergence};
-use super::curve::{CurveError, svg};
+use super::curve::svg;
 use super::definition::Study;
 use super::ensemble::bands::{Figures, distribution};
-use super::ensemble::statistics::{groups, statistics};
+use super::ensemble::statistics::{FULL, SHORT, groups, statistics};
 use super::folder::StudyFolder;
+use super::measured;
 use super::page::{Content, page};
 use super::page_of_samples::Uncertainty;
 use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results};
 use super::run::PlannedRun;
 use super::table::{self, Table};
-use super::values::shown;
 use super::verdict::{Judgment, judgments};
 use crate::input::nearest;
 use crate::io::diagram::DiagramError;
@@ -29,10 +29,7 @@ pub enum ReportError {
     /// A file error.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A curve.
-    #[error("a curve cannot be drawn: {0}")]
-    Curve(#[from] CurveError),
-    /// The curves of all runs in one diagram.
+    /// A diagram.
     #[error(transparent)]
     Diagram(#[from] DiagramError),
 }
@@ -78,15 +75,12 @@ fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder
 /// The capillary pressure curves of all complete runs, each named by the values in which runs differ; `None` if fewer than two have one.
 fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Result<Option<String>, ReportError> {
     let varies = |name: &str| results.iter().any(|result| result.run.value(name) != results[0].run.value(name));
-    let name = |result: &RunResult| {
-        // One column identifies the value of an axis.
-        let columns = study.axes.iter().filter_map(|axis| axis.columns.first()).map(|column| column.name.as_str());
-        let assignment = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
-        columns.filter(|name| varies(name)).filter_map(assignment).collect::<Vec<_>>().join(", ")
-    };
+    // One column identifies the value of an axis.
+    let is_first = |name: &str| study.axes.iter().any(|axis| axis.columns.first().is_some_and(|one| one.name == name));
     let complete = results.iter().filter(|result| study.compare.is_none() && result.state.report().is_some());
-    let runs: Vec<(String, PathBuf)> = complete.map(|result| (name(result), folder.run(&result.run.name))).collect();
-    let runs: Vec<(String, &Path)> = runs.iter().map(|(name, folder)| (name.clone(), folder.as_path())).collect();
+    let run =
+        |result: &RunResult| (result.run.values(|name| is_first(name) && varies(name)), folder.run(&result.run.name));
+    let runs: Vec<(String, PathBuf)> = complete.map(run).collect();
     Ok(if runs.len() > 1 { pressure_curves::overlay(&runs)? } else { None })
 }
 
@@ -102,11 +96,14 @@ fn uncertainty<'f>(
     folder: &StudyFolder,
     figures: &'f [Figures],
 ) -> Result<Option<Uncertainty<'f>>, ReportError> {
-    let (Some(sampling), Some(statistics)) = (&study.sampling, statistics(study, results)) else { return Ok(None) };
+    let of = |style| statistics(study, results, style);
+    let (Some(sampling), Some(full), Some(statistics)) = (&study.sampling, of(FULL), of(SHORT)) else {
+        return Ok(None);
+    };
     let path = |name: &str| folder.root().join(name);
-    atomic::write(&path("quantiles.csv"), &statistics.quantiles.csv()?)?;
-    atomic::write(&path("convergence.csv"), &statistics.convergence.csv()?)?;
-    if let Some(indices) = &statistics.indices {
+    atomic::write(&path("quantiles.csv"), &full.quantiles.csv()?)?;
+    atomic::write(&path("convergence.csv"), &full.convergence.csv()?)?;
+    if let Some(indices) = &full.indices {
         atomic::write(&path("indices.csv"), &indices.csv()?)?;
     }
     let distribution = distribution(sampling, &groups(study, results), folder.root())?;
@@ -125,7 +122,7 @@ pub(crate) fn report_of(
     let resolution = Resolution::of(study, &results);
     let uncertainty = uncertainty(study, &results, folder, figures)?;
     let table = match &uncertainty {
-        Some(uncertainty) => uncertainty.statistics.short.clone(),
+        Some(uncertainty) => uncertainty.statistics.quantiles.clone(),
         None => table::short(study, &results, &resolution),
     };
     let path = |name: &str| folder.root().join(name);
@@ -172,11 +169,7 @@ fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
         return Vec::new();
     }
     let known: BTreeSet<&str> = there.keys().map(String::as_str).chain(RUN_NUMBERS).collect();
-    let expected = study.expectations.iter().map(|expected| &expected.measure);
-    let trends = study.trends.iter().map(|trend| &trend.measure);
-    let curves = study.report.curves.iter().flat_map(|curve| [&curve.x, &curve.y]);
-    let table = study.report.measures.iter().flatten();
-    let names: BTreeSet<&str> = expected.chain(trends).chain(curves).chain(table).map(String::as_str).collect();
+    let names: BTreeSet<&str> = measured::names(study).collect();
     let is_parameter = |name: &str| study.parameters().any(|column| column.name == name);
     let lost = names.into_iter().filter(|name| !known.contains(name) && !is_parameter(name));
     let message = |name: &str| match nearest(name, known.iter().copied()) {

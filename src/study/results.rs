@@ -158,6 +158,24 @@ impl RunResult {
     }
 }
 
+/// The results in groups of the same name, in the order of their first runs.
+pub(crate) fn grouped<'r>(
+    results: impl Iterator<Item = &'r RunResult>,
+    name: impl Fn(&RunResult) -> String,
+) -> Vec<(String, Vec<&'r RunResult>)> {
+    let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
+    let mut indices: BTreeMap<String, usize> = BTreeMap::new();
+    for result in results {
+        let name = name(result);
+        let index = *indices.entry(name.clone()).or_insert(groups.len());
+        if index == groups.len() {
+            groups.push((name, Vec::new()));
+        }
+        groups[index].1.push(result);
+    }
+    groups
+}
+
 /// Number of complete runs in which one of the `measures` is not at rest.
 pub(crate) fn moving(results: &[RunResult], measures: &[String]) -> usize {
     results.iter().filter(|result| measures.iter().any(|measure| result.motion(measure).is_some())).count()

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use toml::Value;
 
 use super::base_case;
-use super::comparison::{self, DirectRun, NetworkRun, PlannedNetwork};
+use super::comparison::{self, NetworkRun, PlannedNetwork};
 use super::definition::{Assignment, Choice, Quantity, Study};
-use super::values::{number_of, same};
+use super::values::{number_of, same, shown};
 use crate::case::{Case, KeptGeometry, Loaded};
-use crate::input::{Document, InputError, Problem};
+use crate::input::{Document, InputError, Mistake, Problem};
 use crate::io::checksum::fnv1a;
 
 /// Prefix of the message of a mistake in a sampled value.
@@ -21,11 +21,6 @@ const OF_DISTRIBUTION: &str = ".distribution";
 /// The remedy.
 const IN_RANGE: &str =
     "truncate a normal distribution by `at-least` and `at-most`, or take one that ends within the range";
-
-/// A text that another one continues.
-fn joined(text: &str) -> String {
-    if text.is_empty() { String::new() } else { format!("{text}; ") }
-}
 
 /// A parameter with its value in a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,6 +78,17 @@ impl Run {
         self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
     }
 
+    /// The values of some parameters as text.
+    pub(crate) fn values(&self, is_shown: impl Fn(&str) -> bool) -> String {
+        let parameters = self.parameters.iter().filter(|one| is_shown(&one.name));
+        parameters.map(|one| format!("{} = {}", one.name, shown(&one.value))).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The values along all axes except that of the samples, as text.
+    pub(crate) fn name_of_group(&self, study: &Study) -> String {
+        self.values(|name| study.sampling.as_ref().is_none_or(|sampling| !sampling.has(name)))
+    }
+
     /// The value of a quantity in this run.
     pub(crate) fn quantity(&self, quantity: &Quantity) -> Option<f64> {
         match quantity {
@@ -120,8 +126,8 @@ impl Run {
     fn load(&self, study: &Study) -> Result<PlannedRun, InputError> {
         let (loaded, network) = match &self.network {
             Some(network) => {
-                let direct = DirectRun { case: &self.case, origin: &self.case_origin, assignments: &self.assignments };
-                let (direct, network) = comparison::plan(study, &direct, network)?;
+                let (direct, network) =
+                    comparison::plan(study, &self.case, &self.case_origin, &self.assignments, network)?;
                 (direct, Some(network))
             }
             None => (base_case::load(&self.case, &self.assignments)?, None),
@@ -132,34 +138,31 @@ impl Run {
 
     /// Relocates the mistakes of values set by the study to the study file.
     fn placed(&self, study: &Study, error: InputError) -> InputError {
-        let mut mistakes = Vec::new();
-        let of_network = self.network.iter();
-        let assignments = || self.assignments.iter().chain(of_network.clone().flat_map(|network| &network.assignments));
-        let cases = || {
-            let network = of_network.clone().map(|network| (&network.case, comparison::NETWORK_KEY));
-            std::iter::once((&self.case, self.case_origin.as_str())).chain(network)
+        let placed = |mistake: Mistake| {
+            let moved = self.problem(&mistake).and_then(|problem| study.refuse(vec![problem]).err());
+            moved.map_or_else(|| vec![mistake], |error| error.mistakes)
         };
-        for mistake in error.mistakes {
-            let set_here = assignments().find(|one| mistake.name == format!("--set {}", one.text));
-            let is_missing = |case: &Path| mistake.location.is_none() && mistake.name == case.display().to_string();
-            let missing_case = cases().find(|(case, _)| is_missing(case));
-            let problem = match set_here {
-                Some(one) if one.origin.ends_with(OF_DISTRIBUTION) => {
-                    let message = format!("{SAMPLE_MISTAKE}{} (in `{}`)", mistake.message, one.text);
-                    Some(Problem::new(&one.origin, message, format!("{}{IN_RANGE}", joined(mistake.help_text()))))
-                }
-                Some(one) => {
-                    let message = format!("{} (in `{}`)", mistake.message, one.text);
-                    Some(Problem::new(&one.origin, message, mistake.help_text()))
-                }
-                None => missing_case.map(|(_, origin)| Problem::new(origin, &mistake.message, mistake.help_text())),
-            };
-            let moved = problem.and_then(|problem| study.refuse(vec![problem]).err());
-            match moved {
-                Some(error) => mistakes.extend(error.mistakes),
-                None => mistakes.push(mistake),
+        InputError { mistakes: error.mistakes.into_iter().flat_map(placed).collect() }
+    }
+
+    /// A mistake as a problem of the study file, if that gives the value or the base case.
+    fn problem(&self, mistake: &Mistake) -> Option<Problem> {
+        let help = mistake.help_text();
+        let of_network = self.network.iter().flat_map(|network| &network.assignments);
+        let set_here =
+            self.assignments.iter().chain(of_network).find(|one| mistake.name == format!("--set {}", one.text));
+        if let Some(one) = set_here {
+            let message = format!("{} (in `{}`)", mistake.message, one.text);
+            if !one.origin.ends_with(OF_DISTRIBUTION) {
+                return Some(Problem::new(&one.origin, message, help));
             }
+            let help = if help.is_empty() { IN_RANGE.to_owned() } else { format!("{help}; {IN_RANGE}") };
+            return Some(Problem::new(&one.origin, format!("{SAMPLE_MISTAKE}{message}"), help));
         }
-        InputError { mistakes }
+        let network = self.network.iter().map(|network| (&network.case, comparison::NETWORK_KEY));
+        let is_missing = |case: &Path| mistake.location.is_none() && mistake.name == case.display().to_string();
+        let mut cases = std::iter::once((&self.case, self.case_origin.as_str())).chain(network);
+        let (_, origin) = cases.find(|(case, _)| is_missing(case))?;
+        Some(Problem::new(origin, &mistake.message, help))
     }
 }

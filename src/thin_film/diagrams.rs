@@ -30,11 +30,11 @@ pub(crate) fn all(observed: &ObservedFilm) -> Vec<Diagram> {
 }
 
 fn linear(label: &'static str) -> Axis {
-    Axis { label, logarithmic: false }
+    Axis { label: label.into(), logarithmic: false }
 }
 
 fn logarithmic(label: &'static str) -> Axis {
-    Axis { label, logarithmic: true }
+    Axis { label: label.into(), logarithmic: true }
 }
 
 fn trace(name: impl Into<String>, stroke: Stroke, points: impl IntoIterator<Item = [f64; 2]>) -> Trace {
@@ -52,7 +52,7 @@ fn space_time(observed: &ObservedFilm) -> Diagram {
     };
     let line = history.records.iter().map(|record| [record.position * scales.length, record.time * scales.time]);
     let traces = vec![trace("contact line", Stroke::Full, line)];
-    let title = "Height over position and time";
+    let title = "Height over position and time".into();
     Diagram { name: "space-time", title, x: linear(POSITION), y: logarithmic(TIME), map: Some(map), traces }
 }
 
@@ -75,7 +75,7 @@ fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
         traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
     }
     traces.push(trace("last particle", Stroke::Full, last));
-    let title = "Paths of particles right of the middle";
+    let title = "Paths of particles right of the middle".into();
     Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces })
 }
 
@@ -97,7 +97,7 @@ fn contact_line(observed: &ObservedFilm) -> Diagram {
         traces.push(trace("at rest", Stroke::Dashed, line.iter().map(|point| [point[0], at_rest])));
     }
     traces.push(trace("contact line", Stroke::Full, line));
-    let title = "The contact line over time";
+    let title = "The contact line over time".into();
     Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces }
 }
 
@@ -133,7 +133,7 @@ fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
     // Beyond the droplet there is only the wall.
     traces.iter_mut().for_each(|trace| trace.points.retain(|point| point[0] < 1.6 * end));
     let (x, y) = (linear("eta = x t^(-1/7), scaled"), linear("t^(1/7) h, scaled"));
-    Some(Diagram { name: "similarity", title: "Profiles in similarity variables", x, y, map: None, traces })
+    Some(Diagram { name: "similarity", title: "Profiles in similarity variables".into(), x, y, map: None, traces })
 }
 
 fn rest(observed: &ObservedFilm) -> Option<Diagram> {
@@ -149,7 +149,7 @@ fn rest(observed: &ObservedFilm) -> Option<Diagram> {
         trace("closed form", Stroke::Dashed, known.step_by(every)),
     ];
     let (x, y) = (linear(POSITION), linear("height in m"));
-    Some(Diagram { name: "rest", title: "The droplet at rest", x, y, map: None, traces })
+    Some(Diagram { name: "rest", title: "The droplet at rest".into(), x, y, map: None, traces })
 }
 
 fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
@@ -166,7 +166,7 @@ fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
         trace(format!("{:.3} of the theory", factor / COX_VOINOV), Stroke::Dashed, fitted),
     ];
     let (x, y) = (linear("9 Ca ln(x/d), scaled"), linear("cubed slope over that at rest"));
-    Some(Diagram { name: "cox-voinov", title: "The law of Cox and Voinov", x, y, map: None, traces })
+    Some(Diagram { name: "cox-voinov", title: "The law of Cox and Voinov".into(), x, y, map: None, traces })
 }
 
 /// A number with two significant digits.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::fluids::Fluids;
 use super::subdomain::Subdomain;
 use crate::case::Fluid;
-use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
+use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::network::cycles::FluidPhase as Phase;
 
 /// Reynolds number ρQ/μ of the flow with which conductances are measured.
@@ -32,56 +32,28 @@ pub(crate) struct Named<'a> {
     pub(crate) across: u32,
 }
 
-fn head(named: &Named, subdomain: &Subdomain, what: &str, title: &str) -> String {
-    let (middle, width) = (subdomain.frame.middle, subdomain.width);
+/// A shape as a value of a key.
+fn shape(shape: ShapeSpec) -> String {
+    // Numbers by name: all of it can be written as TOML.
+    toml::Value::try_from(shape).map_or(String::new(), |value| value.to_string())
+}
+
+/// The beginning of a case, up to the spacing.
+fn beginning(subdomain: &Subdomain, fluids: &Fluids, named: &Named, quantity: &str, what: &str) -> String {
+    let Subdomain { frame, width, geometry: GeometrySpec { min, max, shapes, .. }, .. } = subdomain;
+    let Named { number, network, across } = named;
+    let shapes: String = shapes.iter().map(|one| format!("    {},\n", shape(one.clone()))).collect();
+    let depth = fluids.chip.map_or(String::new(), |chip| format!("depth = {:e} # m\n", chip.depth.distance()));
     format!(
-        "# {what}\n# Throat {} of {}, {width:.4e} m wide at ({:.4e}, {:.4e}) m; x is the flow direction of the invading phase, {:.2} degrees \
-         counter-clockwise from that of the network.\nformat = 1\ntitle = \"{title}\"\n\n",
-        named.number,
-        named.network,
-        middle.x,
-        middle.y,
-        subdomain.frame.angle.to_degrees()
+        "# {what}\n# Throat {number} of {network}, {width:.4e} m wide at ({:.4e}, {:.4e}) m; x is the flow direction of the invading phase, {:.2} degrees \
+         counter-clockwise from that of the network.\nformat = 1\ntitle = \"Throat {number}: {quantity}, {across} spacings across\"\n\n\
+         [geometry]\nmin = {min:?} # m\nmax = {max:?} # m\n{depth}shapes = [ # m; x, y and bulge of curved polygons\n{shapes}]\n\n\
+         [sph]\nspacing = {:e} # m\n\n",
+        frame.middle.x,
+        frame.middle.y,
+        frame.angle.to_degrees(),
+        width / f64::from(*across)
     )
-}
-
-fn polygon(polygon: &CurvedPolygon) -> String {
-    let vertices: String =
-        polygon.outer.iter().map(|[x, y, bulge]| format!("    [{x:e}, {y:e}, {bulge:e}],\n")).collect();
-    format!("outer = [\n{vertices}]")
-}
-
-fn shapes(geometry: &GeometrySpec, fluids: &Fluids) -> String {
-    let corner = |x: [f64; 2]| format!("[{:e}, {:e}] # m", x[0], x[1]);
-    let mut text = format!("[geometry]\nmin = {}\nmax = {}\n", corner(geometry.min), corner(geometry.max));
-    if let Some(chip) = fluids.chip {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "depth = {:e} # m", chip.depth.distance());
-    }
-    for shape in &geometry.shapes {
-        // Writing to a string cannot fail; a subdomain has no other shapes.
-        let _ = match shape {
-            ShapeSpec::Disc(disc) => writeln!(
-                text,
-                "\n[[geometry.shapes]]\ndisc = {{ center = [{:e}, {:e}], radius = {:e} }} # m",
-                disc.center[0], disc.center[1], disc.radius
-            ),
-            ShapeSpec::HalfPlane(plane) => writeln!(
-                text,
-                "\n[[geometry.shapes]]\nhalf-plane = {{ point = [{:e}, {:e}], rotation-deg = {:e} }} # m",
-                plane.point[0], plane.point[1], plane.rotation_deg
-            ),
-            ShapeSpec::CurvedPolygon(shape) => {
-                writeln!(
-                    text,
-                    "\n[[geometry.shapes]]\n[geometry.shapes.curved-polygon] # x and y in m, bulge\n{}",
-                    polygon(shape)
-                )
-            }
-            _ => Ok(()),
-        };
-    }
-    text
 }
 
 fn phase(name: &str, fluid: Fluid) -> String {
@@ -102,21 +74,18 @@ pub(crate) fn entry(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> St
         .max(FRICTION_TIMES * fluids.friction_time(length, width));
     let pressure = fluids.invading.towards_wetting(fluids.pressure(subdomain.meniscus.curvature));
     let background = if fluids.invading == Phase::NonWetting { "wetting" } else { "non-wetting" };
-    let title = format!("Throat {}: entry pressure, {} spacings across", named.number, named.across);
     let what = "The invading phase fills the closed box up to the meniscus of largest curvature, which rests there.";
-    let mut text = head(named, subdomain, what, &title);
-    text += &shapes(&subdomain.geometry, fluids);
-    let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
+    let mut text = beginning(subdomain, fluids, named, "entry pressure", what);
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
     let _ = write!(
         text,
-        "[sph.interface]\ntension = {tension:e} # N/m\n\n{}[sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arc is that of the meniscus\n\
-         [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n[sph.measure.throat-entry]\n\n\
+        "[sph.interface]\ntension = {tension:e} # N/m\n\n{}[sph.initial]\nbackground = \"{background}\"\n\
+         wetting = [{}] # the invading phase, in m: its arc is that of the meniscus\n\n[sph.measure.throat-entry]\n\n\
          [time]\nend = {end:e} # s\n\n[time.steady]\ncapillary-number = 3.0e-4\n\n[output.vtk]\nevery-time = {end:e} # s\n\n\
          [[expect]] # the formula\nmeasure = \"entry-pressure-Pa\"\nvalue = {pressure:e}\ntolerance = {:e}\n",
         fluids.wetting(subdomain.angle),
-        polygon(&subdomain.behind),
+        shape(ShapeSpec::CurvedPolygon(subdomain.behind.clone())),
         (EXPECTED * pressure).abs()
     );
     text
@@ -124,15 +93,11 @@ pub(crate) fn entry(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> St
 
 /// The case of the conductance: one phase flows at a given rate through the box, which is periodic along the throat.
 pub(crate) fn flow(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> String {
-    let width = subdomain.width;
-    let fluid = fluids.of(width)[0];
+    let fluid = fluids.of(subdomain.width)[0];
     let height = subdomain.geometry.max[1] - subdomain.geometry.min[1];
     let end = FLOW_TIMES * fluid.density * height * height / fluid.viscosity;
-    let title = format!("Throat {}: conductance, {} spacings across", named.number, named.across);
     let what = "One phase passes the throat at a given rate; the box is periodic along the throat.";
-    let mut text = head(named, subdomain, what, &title);
-    text += &shapes(&subdomain.geometry, fluids);
-    let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
+    let mut text = beginning(subdomain, fluids, named, "conductance", what);
     text += &phase("wetting", fluid);
     let _ = write!(
         text,

@@ -1,7 +1,5 @@
 //! The report page of the verified throats: one self-contained HTML file beside the pictures of the runs.
 
-use std::fmt::Write;
-
 use super::plan::RUNS;
 use super::results::Row;
 use crate::io::html::{self, escaped};
@@ -30,12 +28,7 @@ fn pictures(row: &Row) -> String {
     for run in &row.runs {
         let run = escaped(run);
         let caption = run.trim_start_matches("cut-out=").trim_end_matches(".toml");
-        let picture = format!("{RUNS}/runs/{run}/picture.png");
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            html,
-            "<figure><a href=\"{picture}\"><img loading=\"lazy\" src=\"{picture}\" alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>"
-        );
+        html += &html::figure(&format!("{RUNS}/runs/{run}/picture.png"), caption);
     }
     html + "</div>\n"
 }

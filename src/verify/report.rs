@@ -30,12 +30,13 @@ pub(crate) fn write(
     folder: &Path,
     subject: &Subject,
     rows: &[Row],
-    (spacings, fluids): (&[u32], &Fluids),
+    spacings: &[u32],
+    fluids: &Fluids,
     title: &str,
 ) -> Result<Written, FileError> {
     let path = |name: &str| folder.join(name);
     let table = short(subject, rows);
-    atomic::write(&path("verify.csv"), &full(subject, rows, (spacings, fluids)).csv()?)?;
+    atomic::write(&path("verify.csv"), &full(subject, rows, spacings, fluids).csv()?)?;
     atomic::write(&path("entry_pressures.csv"), &pressures(rows).csv()?)?;
     let measured = measured(subject, rows, fluids);
     let replaced = measured.throats.len();
@@ -94,7 +95,7 @@ fn joined(spacings: &[u32]) -> String {
 }
 
 /// `verify.csv`, in full precision.
-fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) -> Table {
+fn full(subject: &Subject, rows: &[Row], spacings: &[u32], fluids: &Fluids) -> Table {
     let across = joined(spacings);
     let throat = |row: &Row, value: fn(&Throat) -> f64| exact(Some(value(subject.throat(row.planned.chosen.throat))));
     let subdomain =

@@ -92,46 +92,32 @@ impl Row<'_> {
     }
 }
 
-/// A run of one throat.
-struct Run<'a> {
-    result: &'a RunResult,
-}
-
-impl Run<'_> {
-    fn failed(&self) -> Option<String> {
-        match &self.result.state {
-            RunState::Failed(report) => {
-                let why = report.error.clone().unwrap_or_default();
-                Some(why.lines().next().unwrap_or("the solver failed").to_owned())
-            }
-            _ => None,
-        }
-    }
-
-    fn is_complete(&self) -> bool {
-        self.result.state.report().is_some()
-    }
-
-    fn number(&self, name: &str) -> Option<f64> {
-        self.result.number(name).filter(|value| value.is_finite())
-    }
+/// A finite number of a complete run.
+fn number(run: &RunResult, name: &str) -> Option<f64> {
+    run.number(name).filter(|value| value.is_finite())
 }
 
 /// The runs of a throat, from coarse to fine.
-fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: &'a [RunResult]) -> Vec<Run<'a>> {
+fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: &'a [RunResult]) -> Vec<&'a RunResult> {
     let mut across: Vec<u32> = spacings.to_vec();
     across.sort_unstable();
-    let found = across.into_iter().filter_map(|across| {
+    let run = |across| {
         let name = case_name(number, kind, across);
         results.iter().find(|result| result.run.case.file_stem().is_some_and(|stem| stem.to_string_lossy() == name))
-    });
-    found.map(|result| Run { result }).collect()
+    };
+    across.into_iter().filter_map(run).collect()
 }
 
 /// Why runs have no value yet; `None` if all are complete.
-fn unfinished(runs: &[Run]) -> Option<Status> {
-    let open = || (runs.is_empty() || !runs.iter().all(Run::is_complete)).then_some(Status::Open);
-    runs.iter().find_map(Run::failed).map(Status::Failed).or_else(open)
+fn unfinished(runs: &[&RunResult]) -> Option<Status> {
+    let failed = runs.iter().find_map(|run| match &run.state {
+        RunState::Failed(report) => Some(report.error.as_deref().unwrap_or_default()),
+        _ => None,
+    });
+    if let Some(why) = failed {
+        return Some(Status::Failed(why.lines().next().unwrap_or("the solver failed").to_owned()));
+    }
+    (runs.is_empty() || runs.iter().any(|run| run.state.report().is_none())).then_some(Status::Open)
 }
 
 /// The row of a throat; `spacings` in order.
@@ -139,7 +125,7 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
     let curvature = planned.subdomain.as_ref().map_or(f64::NAN, |subdomain| subdomain.meniscus.curvature);
     let runs = |kind: Kind| runs_of(planned.chosen.number, kind, spacings, results);
     let (entries, flows) = (runs(Kind::Entry), runs(Kind::Flow));
-    let all = || entries.iter().chain(&flows).filter(|run| run.is_complete());
+    let all = || entries.iter().chain(&flows).filter(|run| run.state.report().is_some());
     let mut row = Row {
         planned,
         pressure_formula: fluids.pressure(curvature),
@@ -147,18 +133,18 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
         conductance: None,
         status: Status::Open,
         flow_status: Status::Open,
-        particles: entries.last().and_then(|run| run.number("unknowns")),
-        wall_time: all().filter_map(|run| run.number("wall-time-s")).sum::<f64>() + 0.0,
-        runs: all().map(|run| run.result.run.name.clone()).collect(),
+        particles: entries.last().and_then(|run| number(run, "unknowns")),
+        wall_time: all().filter_map(|run| number(run, "wall-time-s")).sum::<f64>() + 0.0,
+        runs: all().map(|run| run.run.name.clone()).collect(),
     };
     if let Err(why) = &planned.subdomain {
         (row.status, row.flow_status) = (Status::Impossible(why.to_string()), Status::Impossible(why.to_string()));
         return row;
     }
     let sign = if fluids.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let pressures = |run: &Run| {
-        let bar = run.result.uncertainty("entry-pressure-Pa").unwrap_or(0.0);
-        run.number("entry-pressure-Pa").map(|value| (sign * value, bar))
+    let pressures = |run: &RunResult| {
+        let bar = run.uncertainty("entry-pressure-Pa").unwrap_or(0.0);
+        number(run, "entry-pressure-Pa").map(|value| (sign * value, bar))
     };
     (row.pressure, row.status) = judged(&entries, COARSE_PRESSURE, &pressures);
     if row.status == Status::Ok {
@@ -167,9 +153,9 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
     if planned.conductance.is_some() {
         let viscosity =
             planned.subdomain.as_ref().map_or(f64::NAN, |subdomain| fluids.of(subdomain.width)[0].viscosity);
-        let conductance = |run: &Run| {
-            let drop = run.number("driving-pressure-drop-Pa")?;
-            Some((viscosity * run.number("asked-inflow-m2-per-s")? / drop, 0.0))
+        let conductance = |run: &RunResult| {
+            let drop = number(run, "driving-pressure-drop-Pa")?;
+            Some((viscosity * number(run, "asked-inflow-m2-per-s")? / drop, 0.0))
         };
         (row.conductance, row.flow_status) = judged(&flows, COARSE_FLOW, &conductance);
     } else {
@@ -179,11 +165,15 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
 }
 
 /// The finest value with its error, from runs in order from coarse to fine; `coarse` is the largest relative difference allowed between two.
-fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<Direct>, Status) {
+fn judged(
+    runs: &[&RunResult],
+    coarse: f64,
+    value: &dyn Fn(&RunResult) -> Option<(f64, f64)>,
+) -> (Option<Direct>, Status) {
     if let Some(status) = unfinished(runs) {
         return (None, status);
     }
-    let values: Vec<Option<(f64, f64)>> = runs.iter().map(value).collect();
+    let values: Vec<Option<(f64, f64)>> = runs.iter().map(|run| value(run)).collect();
     let Some(&Some((finest, bar))) = values.last() else {
         return (None, Status::UnderResolved("a phase has no particle away from the interface".to_owned()));
     };
@@ -201,13 +191,13 @@ fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>)
 }
 
 /// Whether the finest run has come to rest, with its areas conserved.
-fn at_rest(entries: &[Run]) -> Status {
+fn at_rest(entries: &[&RunResult]) -> Status {
     let Some(finest) = entries.last() else { return Status::Open };
-    match finest.number("area-drift") {
+    match number(finest, "area-drift") {
         Some(drift) if drift > LEAKED => {
             Status::UnderResolved(format!("the area of a phase drifted by {:.1} %", 100.0 * drift))
         }
-        _ if finest.number("steady-at-s").is_none() => Status::NotAtRest,
+        _ if number(finest, "steady-at-s").is_none() => Status::NotAtRest,
         _ => Status::Ok,
     }
 }

@@ -1,7 +1,7 @@
 //! Measures, events and diagrams of a dynamic displacement.
 
 use super::model::DynamicModel;
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::diagram::{Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
 use crate::network::measures::{Costly, of_network};
 use crate::network::tables::{BEGINNING, counts, indices, numbers, numbers_of_throats, words};
@@ -161,13 +161,7 @@ pub(crate) fn diagrams(model: &DynamicModel) -> Vec<Diagram> {
     let history = model.dynamic.history();
     let points =
         history.iter().filter(|event| event.pressure.is_finite()).map(|event| [event.saturation, event.pressure]);
-    let axis = |label| Axis { label, logarithmic: false };
-    vec![Diagram {
-        name: "pressure-difference",
-        title: "Pressure difference at each event",
-        x: axis("saturation of the invading phase"),
-        y: axis("pressure at the inlet less that at the outlet in Pa"),
-        map: None,
-        traces: vec![Trace { name: "events".to_owned(), stroke: Stroke::Full, points: points.collect() }],
-    }]
+    let traces = vec![Trace { name: "events".to_owned(), stroke: Stroke::Full, points: points.collect() }];
+    let labels = ["saturation of the invading phase", "pressure at the inlet less that at the outlet in Pa"];
+    vec![Diagram::linear("pressure-difference", "Pressure difference at each event", labels, traces)]
 }

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use super::comparison::{Comparison, Side};
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::diagram::{Diagram, Stroke, Trace};
 use crate::io::diagram;
 use crate::io::html::{self, escaped};
+use crate::run::pressure_curves::{LABELS, TITLE};
 
 /// The page as HTML.
 pub(crate) fn page(comparison: &Comparison) -> String {
@@ -90,8 +91,6 @@ fn known(over: &[f64], pressures: &[Option<f64>]) -> Vec<[f64; 2]> {
     over.iter().zip(pressures).filter_map(|(over, pressure)| Some([*over, (*pressure)?])).collect()
 }
 
-const SATURATION: &str = "saturation of the wetting phase";
-
 fn quasi_static(comparison: &Comparison) -> Diagram {
     let points = |side: &Side| known(&side.saturation, &side.capillary_pressure_pa);
     // In the network, the pressure rises at constant saturation, and the saturation changes at constant pressure.
@@ -99,14 +98,8 @@ fn quasi_static(comparison: &Comparison) -> Diagram {
     let first = comparison.network.saturation.first().copied();
     let before = first.into_iter().chain(network.iter().map(|point| point[0]));
     let stairs = network.iter().zip(before).flat_map(|(point, before)| [[before, point[1]], *point]).collect();
-    Diagram {
-        name: "compare",
-        title: "Capillary pressure over saturation",
-        x: Axis { label: SATURATION, logarithmic: false },
-        y: Axis { label: "capillary pressure p_n - p_w in Pa", logarithmic: false },
-        map: None,
-        traces: vec![trace("network", stairs), trace("direct simulation", points(&comparison.direct))],
-    }
+    let traces = vec![trace("network", stairs), trace("direct simulation", points(&comparison.direct))];
+    Diagram::linear("compare", TITLE, LABELS, traces)
 }
 
 fn in_time(comparison: &Comparison) -> Vec<Diagram> {
@@ -114,23 +107,22 @@ fn in_time(comparison: &Comparison) -> Vec<Diagram> {
     let both = |points: &dyn Fn(&Side) -> Vec<[f64; 2]>| {
         vec![trace("network", points(&comparison.network)), trace("direct simulation", points(&comparison.direct))]
     };
-    let diagram = |(name, title), [x, y]: [&'static str; 2], traces| {
-        let axis = |label| Axis { label, logarithmic: false };
-        Diagram { name, title, x: axis(x), y: axis(y), map: None, traces }
-    };
     vec![
-        diagram(
-            ("compare", "Pressure difference over saturation"),
-            [SATURATION, pressure],
+        Diagram::linear(
+            "compare",
+            "Pressure difference over saturation",
+            [LABELS[0], pressure],
             both(&|side| known(&side.saturation, &side.pressure_difference_pa)),
         ),
-        diagram(
-            ("compare-saturation", "Saturation over time"),
-            [time, SATURATION],
+        Diagram::linear(
+            "compare-saturation",
+            "Saturation over time",
+            [time, LABELS[0]],
             both(&|side| side.time_s.iter().zip(&side.saturation).map(|(time, s)| [*time, *s]).collect()),
         ),
-        diagram(
-            ("compare-pressure", "Pressure difference over time"),
+        Diagram::linear(
+            "compare-pressure",
+            "Pressure difference over time",
             [time, pressure],
             both(&|side| known(&side.time_s, &side.pressure_difference_pa)),
         ),

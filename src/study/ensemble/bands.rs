@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use super::engine::Engine;
-use super::plan::Ensemble;
 use super::statistics::{Group, SHARE_HEADS, SHARES, full};
-use super::store::{Done, Kept};
+use super::store::Done;
 use crate::analysis::samples::{mean, quantile};
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::diagram::{Diagram, Stroke, Trace};
 use crate::io::diagram::svg;
 use crate::io::{FileError, atomic};
-use crate::run::ensemble::{Map, SATURATIONS};
-use crate::study::definition::{Sampling, Study};
+use crate::run::ensemble::{Map, Observed, SATURATIONS, write_map};
+use crate::run::pressure_curves::{LABELS, TITLE};
+use crate::study::definition::Sampling;
 use crate::study::table::Table;
 
 /// The figures of a group on the page.
@@ -55,15 +55,14 @@ impl Level {
 }
 
 /// The complete draws of a group.
-fn draws<'d>(ensemble: &Ensemble, done: &'d [Option<Done>], group: usize, sampling: &Sampling) -> Vec<&'d Kept> {
-    let of_group = ensemble.samples.iter().zip(done).filter(|(sample, _)| sample.group == group);
-    let kept: Vec<Option<&Kept>> =
-        of_group.map(|(_, done)| done.as_ref().and_then(|done| done.ended.as_ref().ok())).collect();
+fn draws<'d>(engine: &'d Engine<'_>, group: usize, sampling: &Sampling) -> Vec<&'d Observed> {
+    let of_group = engine.ensemble.samples.iter().zip(&engine.done).filter(|(sample, _)| sample.group == group);
+    let kept: Vec<Option<&Observed>> = of_group.map(|(_, done)| done.as_ref().and_then(Done::observed)).collect();
     kept.chunks(sampling.rows()).flat_map(|rows| rows.iter().take(sampling.draws()).flatten().copied()).collect()
 }
 
 /// The pressures of a half cycle at each saturation.
-fn levels(kept: &[&Kept], half_cycle: usize) -> Vec<Level> {
+fn levels(kept: &[&Observed], half_cycle: usize) -> Vec<Level> {
     let level = |k: usize| {
         let mut pressures: Vec<f64> = kept
             .iter()
@@ -80,18 +79,12 @@ fn levels(kept: &[&Kept], half_cycle: usize) -> Vec<Level> {
 ///
 /// # Errors
 /// [`FileError`] with the path and a remedy.
-pub(crate) fn write(
-    study: &Study,
-    ensemble: &Ensemble,
-    engine: &Engine<'_>,
-    maps: &[Map],
-    folder: &Path,
-) -> Result<Vec<Figures>, FileError> {
-    let Some(sampling) = &study.sampling else { return Ok(Vec::new()) };
+pub(crate) fn write(engine: &Engine<'_>, maps: &[Map], folder: &Path) -> Result<Vec<Figures>, FileError> {
+    let Some(sampling) = &engine.study.sampling else { return Ok(Vec::new()) };
     let mut all = Vec::new();
-    for (number, (group, map)) in ensemble.groups.iter().zip(maps).enumerate() {
+    for (number, (group, map)) in engine.ensemble.groups.iter().zip(maps).enumerate() {
         let suffix = if maps.len() > 1 { format!("-{}", number + 1) } else { String::new() };
-        let kept = draws(ensemble, &engine.done, number, sampling);
+        let kept = draws(engine, number, sampling);
         let mut figures = Figures { name: group.name.clone(), ..Figures::default() };
         if kept.is_empty() {
             all.push(figures);
@@ -111,7 +104,7 @@ pub(crate) fn write(
             let probability: Vec<f64> = (0..map.len()).map(invaded_fraction).collect();
             let values = if group.name.is_empty() { String::new() } else { format!(", {}", group.name) };
             let note = format!("{}, {} samples{values}", map.moment(), kept.len());
-            map.write(folder, &suffix, &probability, (&study.title, note))?;
+            write_map(map, &probability, folder, &suffix, &engine.study.title, note)?;
             figures.map = Some(format!("invasion{suffix}.png"));
         }
         all.push(figures);
@@ -132,15 +125,9 @@ pub(crate) fn distribution(sampling: &Sampling, groups: &[Group], folder: &Path)
         let points = values.into_iter().enumerate().flat_map(step).collect();
         Trace { name: group.name.clone(), stroke: Stroke::Full, points }
     };
-    let axis = |label| Axis { label, logarithmic: false };
-    let diagram = Diagram {
-        name: "breakthrough",
-        title: "Saturation at breakthrough",
-        x: axis("saturation of the invading phase at breakthrough"),
-        y: axis("share of the samples below"),
-        map: None,
-        traces: groups.iter().map(trace).collect(),
-    };
+    let labels = ["saturation of the invading phase at breakthrough", "share of the samples below"];
+    let traces = groups.iter().map(trace).collect();
+    let diagram = Diagram::linear("breakthrough", "Saturation at breakthrough", labels, traces);
     drawn(&diagram, folder, "breakthrough")
 }
 
@@ -185,13 +172,5 @@ fn diagram(processes: &[&'static str], halves: &[Vec<Level>]) -> Diagram {
         let points = quantiles.iter().map(|(saturation, q)| [*saturation, q[2]]).collect();
         traces.push(Trace { name: format!("{name}, median"), stroke: Stroke::Full, points });
     }
-    let axis = |label| Axis { label, logarithmic: false };
-    Diagram {
-        name: "band",
-        title: "Capillary pressure over saturation",
-        x: axis("saturation of the wetting phase"),
-        y: axis("capillary pressure p_n - p_w in Pa"),
-        map: None,
-        traces,
-    }
+    Diagram::linear("band", TITLE, LABELS, traces)
 }

@@ -1,9 +1,10 @@
 //! Statistics of the samples of a study for each measure: moments, quantiles, Sobol indices, and their convergence with the number of samples.
 
-use super::plan::name_of_group;
+use std::collections::BTreeMap;
+
 use crate::analysis::samples::{deviation, mean, quantile, sobol_indices};
 use crate::study::definition::{Input, Sampling, Study};
-use crate::study::results::{RunResult, measures};
+use crate::study::results::{RunResult, grouped, measures};
 use crate::study::table::{Table, shown_measures};
 use crate::study::verdict::digits;
 
@@ -24,45 +25,33 @@ pub(crate) struct Group<'r> {
     pub(crate) results: Vec<&'r RunResult>,
 }
 
-/// Moments and quantiles of a measure.
-struct Summary {
-    group: String,
-    measure: String,
-    unit: String,
-    count: usize,
-    mean: f64,
-    deviation: f64,
-    quantiles: [f64; 5],
-}
-
-/// The statistics as tables: with all digits for programs, with four for readers.
+/// The statistics as tables.
 #[derive(Debug)]
 pub(crate) struct Statistics {
-    /// `quantiles.csv`.
+    /// Moments and quantiles of each measure: `quantiles.csv`.
     pub(crate) quantiles: Table,
-    /// `indices.csv`; `None` if not requested.
+    /// Sobol indices: `indices.csv`; `None` if not requested.
     pub(crate) indices: Option<Table>,
-    /// `convergence.csv`.
+    /// Estimates from parts of the samples: `convergence.csv`.
     pub(crate) convergence: Table,
-    /// The same for readers.
-    pub(crate) short_convergence: Table,
-    /// Quantiles for readers.
-    pub(crate) short: Table,
-    /// Indices for readers.
-    pub(crate) short_indices: Option<Table>,
 }
+
+/// How numbers are written, and how indices are.
+#[derive(Clone, Copy)]
+pub(crate) struct Style {
+    number: fn(f64) -> String,
+    index: fn(f64) -> String,
+}
+
+/// All digits, for programs.
+pub(crate) const FULL: Style = Style { number: full, index: full };
+/// For readers.
+pub(crate) const SHORT: Style = Style { number: digits, index: |number| format!("{number:.3}") };
 
 /// The groups of a study in the order of their first runs.
 pub(crate) fn groups<'r>(study: &Study, results: &'r [RunResult]) -> Vec<Group<'r>> {
-    let mut groups: Vec<Group> = Vec::new();
-    for result in results {
-        let name = name_of_group(study, &result.run);
-        match groups.iter_mut().find(|group| group.name == name) {
-            Some(group) => group.results.push(result),
-            None => groups.push(Group { name, results: vec![result] }),
-        }
-    }
-    groups
+    let found = grouped(results.iter(), |result| result.run.name_of_group(study));
+    found.into_iter().map(|(name, results)| Group { name, results }).collect()
 }
 
 impl<'r> Group<'r> {
@@ -100,36 +89,20 @@ impl<'r> Group<'r> {
 }
 
 /// The statistics of the complete runs; `None` if nothing is sampled.
-pub(crate) fn statistics(study: &Study, results: &[RunResult]) -> Option<Statistics> {
+pub(crate) fn statistics(study: &Study, results: &[RunResult], style: Style) -> Option<Statistics> {
     let sampling = study.sampling.as_ref()?;
     let groups = groups(study, results);
     let names = shown_measures(study, results);
-    let units = measures(results);
-    let mut summaries = Vec::new();
-    for (group, measure) in groups.iter().flat_map(|group| names.iter().map(move |name| (group, name))) {
-        let values = group.values(sampling, measure, sampling.count);
-        if values.len() < 2 {
-            continue;
-        }
-        summaries.push(Summary {
-            group: group.name.clone(),
-            measure: measure.clone(),
-            unit: units.get(measure).cloned().unwrap_or_default(),
-            count: values.len(),
-            mean: mean(&values),
-            deviation: deviation(&values),
-            quantiles: SHARES.map(|probability| quantile(&values, probability)),
-        });
-    }
-    let indices = sampling.indices.then(|| indices(sampling, &groups, &names, full));
-    let short_indices = sampling.indices.then(|| indices_for_people(sampling, &groups, &names));
+    let measured = Measured {
+        sampling,
+        several: groups.len() > 1,
+        all: groups.iter().flat_map(|group| names.iter().map(move |name| (group, name))).collect(),
+        style,
+    };
     Some(Statistics {
-        quantiles: table(&summaries, full),
-        short: table(&summaries, digits),
-        indices,
-        short_indices,
-        convergence: convergence(sampling, &groups, &names, full),
-        short_convergence: convergence(sampling, &groups, &names, digits),
+        quantiles: measured.quantiles(&measures(results)),
+        indices: sampling.indices.then(|| measured.indices()),
+        convergence: measured.convergence(),
     })
 }
 
@@ -142,10 +115,6 @@ pub(crate) fn full(number: f64) -> String {
     }
 }
 
-fn indices_for_people(sampling: &Sampling, groups: &[Group], names: &[String]) -> Table {
-    indices(sampling, groups, names, |number| format!("{number:.3}"))
-}
-
 /// The heads of a table with a first column for the group if there are several.
 fn heads(groups: bool, heads: &[&str]) -> Vec<String> {
     groups.then_some("values").into_iter().chain(heads.iter().copied()).map(str::to_owned).collect()
@@ -156,58 +125,76 @@ fn row(groups: bool, group: &str, cells: Vec<String>) -> Vec<String> {
     groups.then(|| group.to_owned()).into_iter().chain(cells).collect()
 }
 
-fn table(summaries: &[Summary], number: fn(f64) -> String) -> Table {
-    let groups = summaries.iter().any(|summary| !summary.group.is_empty());
-    let columns = [&["measure", "unit", "samples", "mean", "standard-deviation"][..], &SHARE_HEADS].concat();
-    let cells = |summary: &Summary| {
-        let mut cells = vec![summary.measure.clone(), summary.unit.clone(), summary.count.to_string()];
-        cells.extend([summary.mean, summary.deviation].into_iter().chain(summary.quantiles).map(number));
-        row(groups, &summary.group, cells)
-    };
-    Table { heads: heads(groups, &columns), rows: summaries.iter().map(cells).collect() }
+/// The measures of each group.
+struct Measured<'a> {
+    sampling: &'a Sampling,
+    /// Whether there are several groups.
+    several: bool,
+    all: Vec<(&'a Group<'a>, &'a String)>,
+    style: Style,
 }
 
-/// First-order and total indices of each measure that varies.
-fn indices(sampling: &Sampling, groups: &[Group], names: &[String], number: fn(f64) -> String) -> Table {
-    let several = groups.len() > 1;
-    let mut rows = Vec::new();
-    for (group, measure) in groups.iter().flat_map(|group| names.iter().map(move |name| (group, name))) {
-        let Some(found) = group.indices(sampling, measure, sampling.count) else { continue };
-        rows.extend(sampling.inputs.iter().zip(found).map(|(input, [first, total])| {
-            row(several, &group.name, vec![measure.clone(), input.name.clone(), number(first), number(total)])
-        }));
+impl Measured<'_> {
+    /// Moments and quantiles of each measure with at least two values.
+    fn quantiles(&self, units: &BTreeMap<String, String>) -> Table {
+        let columns = [&["measure", "unit", "samples", "mean", "standard-deviation"][..], &SHARE_HEADS].concat();
+        let values = self.all.iter().map(|&(group, name)| {
+            let values = group.values(self.sampling, name, self.sampling.count);
+            (group, name, values)
+        });
+        let found: Vec<_> = values.filter(|(.., values)| values.len() > 1).collect();
+        let groups = found.iter().any(|(group, ..)| !group.name.is_empty());
+        let cells = |(group, name, values): &(&Group, &String, Vec<f64>)| {
+            let unit = units.get(*name).cloned().unwrap_or_default();
+            let mut cells = vec![(*name).clone(), unit, values.len().to_string()];
+            let quantiles = SHARES.map(|probability| quantile(values, probability));
+            cells.extend([mean(values), deviation(values)].into_iter().chain(quantiles).map(self.style.number));
+            row(groups, &group.name, cells)
+        };
+        Table { heads: heads(groups, &columns), rows: found.iter().map(cells).collect() }
     }
-    Table { heads: heads(several, &["measure", "input", "first-order", "total"]), rows }
-}
 
-/// The estimates from an eighth, a quarter, half and all of the samples.
-fn convergence(sampling: &Sampling, groups: &[Group], names: &[String], number: fn(f64) -> String) -> Table {
-    let several = groups.len() > 1;
-    let mut columns = vec!["measure".to_owned(), "samples".to_owned()];
-    columns.extend(["mean", "quantile-05", "quantile-95"].map(str::to_owned));
-    if sampling.indices {
-        let of = |input: &Input| ["first-order", "total"].map(|index| format!("{index}-{}", input.name));
-        columns.extend(sampling.inputs.iter().flat_map(of));
-    }
-    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let mut rows = Vec::new();
-    for (group, measure) in groups.iter().flat_map(|group| names.iter().map(move |name| (group, name))) {
-        for samples in PARTS.map(|part| sampling.count / part).into_iter().filter(|samples| *samples > 1) {
-            let values = group.values(sampling, measure, samples);
-            if values.len() < 2 {
-                continue;
-            }
-            let mut cells = vec![measure.clone(), samples.to_string()];
-            cells.extend([mean(&values), quantile(&values, SHARES[0]), quantile(&values, SHARES[4])].map(number));
-            if sampling.indices {
-                let found = group.indices(sampling, measure, samples);
-                let none = || vec![[f64::NAN; 2]; sampling.inputs.len()];
-                cells.extend(found.unwrap_or_else(none).into_iter().flatten().map(number));
-            }
-            rows.push(row(several, &group.name, cells));
+    /// First-order and total indices of each measure that varies.
+    fn indices(&self) -> Table {
+        let mut rows = Vec::new();
+        for (group, name) in &self.all {
+            let Some(found) = group.indices(self.sampling, name, self.sampling.count) else { continue };
+            rows.extend(self.sampling.inputs.iter().zip(found).map(|(input, indices)| {
+                let [first, total] = indices.map(self.style.index);
+                row(self.several, &group.name, vec![(*name).clone(), input.name.clone(), first, total])
+            }));
         }
+        Table { heads: heads(self.several, &["measure", "input", "first-order", "total"]), rows }
     }
-    Table { heads: heads(several, &columns), rows }
+
+    /// The estimates from an eighth, a quarter, half and all of the samples.
+    fn convergence(&self) -> Table {
+        let Self { sampling, several, style: Style { number, .. }, .. } = *self;
+        let mut columns = ["measure", "samples", "mean", "quantile-05", "quantile-95"].map(str::to_owned).to_vec();
+        if sampling.indices {
+            let of = |input: &Input| ["first-order", "total"].map(|index| format!("{index}-{}", input.name));
+            columns.extend(sampling.inputs.iter().flat_map(of));
+        }
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let mut rows = Vec::new();
+        for (group, name) in &self.all {
+            for samples in PARTS.map(|part| sampling.count / part).into_iter().filter(|samples| *samples > 1) {
+                let values = group.values(sampling, name, samples);
+                if values.len() < 2 {
+                    continue;
+                }
+                let mut cells = vec![(*name).clone(), samples.to_string()];
+                cells.extend([mean(&values), quantile(&values, SHARES[0]), quantile(&values, SHARES[4])].map(number));
+                if sampling.indices {
+                    let found = group.indices(sampling, name, samples);
+                    let none = || vec![[f64::NAN; 2]; sampling.inputs.len()];
+                    cells.extend(found.unwrap_or_else(none).into_iter().flatten().map(number));
+                }
+                rows.push(row(several, &group.name, cells));
+            }
+        }
+        Table { heads: heads(several, &columns), rows }
+    }
 }
 
 #[cfg(test)]
@@ -225,7 +212,7 @@ mod tests {
         let study = study(INPUTS);
         let value = |run: &crate::study::run::Run, name: &str| run.value(name).and_then(toml::Value::as_float).unwrap();
         let results = complete(&study, |run| value(run, "a") * value(run, "b"));
-        let found = statistics(&study, &results).unwrap();
+        let found = statistics(&study, &results, FULL).unwrap();
         // For uniform factors: means 1.5 and 2, variances 1/12 and 1/3.
         let ([m, n], [v, w]) = ([1.5, 2.0], [1.0 / 12.0, 1.0 / 3.0]);
         let all = (v + m * m) * (w + n * n) - m * m * n * n;
@@ -252,7 +239,7 @@ mod tests {
             [[axis]]\nkey = 'a'\ndistribution = { uniform = { from = 1.0, to = 2.0 } }\n";
         let study = study(text);
         let results = complete(&study, |run| if run.index == 1 { f64::NAN } else { run.index as f64 });
-        let found = statistics(&study, &results).unwrap();
+        let found = statistics(&study, &results, FULL).unwrap();
         let cells: Vec<[&str; 3]> = found.quantiles.rows.iter().map(|row| [0, 1, 3].map(|k| row[k].as_str())).collect();
         assert_eq!(cells, [["c = 1", "m", "7"], ["c = 2", "m", "8"]]);
         assert!(found.indices.is_none());

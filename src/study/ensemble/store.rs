@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::io::checksum::fnv1a;
 use crate::io::{FileError, atomic};
-use crate::run::ensemble::Outcome;
+use crate::run::ensemble::Observed;
 
 /// First bytes of the file.
 const MAGIC: &[u8; 8] = b"samples\n";
@@ -24,38 +24,13 @@ pub(crate) struct Done {
     /// Identifies its case.
     pub(crate) digest: u64,
     /// Its results, or why it failed.
-    pub(crate) ended: Result<Kept, String>,
+    pub(crate) ended: Result<Observed, String>,
 }
 
-/// The stored results of a sample.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Kept {
-    /// Name, unit and value of each measure.
-    pub(crate) measures: Vec<(String, String, f64)>,
-    /// For each half cycle the capillary pressure at all saturations.
-    pub(crate) curves: Vec<Vec<f64>>,
-    /// Eight parts of the map per byte.
-    invaded: Vec<u8>,
-    /// Number of events or steps.
-    pub(crate) steps: u64,
-    /// Number of pores.
-    pub(crate) pores: usize,
-    /// Wall time in s.
-    pub(crate) seconds: f64,
-}
-
-impl Kept {
-    /// The stored results of an outcome that took `seconds`.
-    pub(crate) fn of(outcome: Outcome, seconds: f64) -> Self {
-        let byte = |parts: &[bool]| parts.iter().enumerate().fold(0, |byte, (k, &is)| byte | (u8::from(is) << k));
-        let invaded = outcome.invaded.chunks(8).map(byte).collect();
-        let Outcome { measures, curves, steps, pores, .. } = outcome;
-        Self { measures, curves, invaded, steps, pores, seconds }
-    }
-
-    /// Whether a part of the map was invaded.
-    pub(crate) fn is_invaded(&self, part: usize) -> bool {
-        self.invaded.get(part / 8).is_some_and(|byte| byte >> (part % 8) & 1 == 1)
+impl Done {
+    /// Its results, unless it failed.
+    pub(crate) fn observed(&self) -> Option<&Observed> {
+        self.ended.as_ref().ok()
     }
 }
 
@@ -76,8 +51,8 @@ fn decode(bytes: &[u8]) -> Option<Vec<Option<Done>>> {
     if fnv1a(content).to_le_bytes() != checksum {
         return None;
     }
-    let (version, rest) = postcard::take_from_bytes::<u32>(content.strip_prefix(MAGIC)?).ok()?;
-    if version == VERSION { postcard::from_bytes(rest).ok() } else { None }
+    let (version, done): (u32, _) = postcard::from_bytes(content.strip_prefix(MAGIC)?).ok()?;
+    (version == VERSION).then_some(done)
 }
 
 /// Writes the finished samples.
@@ -86,10 +61,9 @@ fn decode(bytes: &[u8]) -> Option<Vec<Option<Done>>> {
 /// [`FileError`]; then the previous file still exists.
 pub(crate) fn save(folder: &Path, done: &[Option<Done>]) -> Result<(), FileError> {
     let path = path(folder);
-    let failed = |error: postcard::Error| FileError::Format { path: path.clone(), what: error.to_string() };
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend(postcard::to_stdvec(&VERSION).map_err(failed)?);
-    bytes.extend(postcard::to_stdvec(done).map_err(failed)?);
+    let content = postcard::to_stdvec(&(VERSION, done))
+        .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+    let mut bytes = [MAGIC.as_slice(), &content].concat();
     bytes.extend(fnv1a(&bytes).to_le_bytes());
     atomic::write(&path, &bytes)
 }
@@ -99,15 +73,14 @@ mod tests {
     use super::*;
 
     fn example() -> Vec<Option<Done>> {
-        let outcome = Outcome {
+        let observed = Observed {
             measures: vec![("breakthrough-pressure-Pa".into(), "Pa".into(), 0.1 + 0.2)],
             curves: vec![vec![f64::INFINITY, 1.0, f64::NEG_INFINITY]],
-            invaded: (0..11).map(|k| k % 3 == 0).collect(),
-            steps: 7,
-            pores: 3,
+            seconds: 0.5,
+            ..Observed::default()
         };
         let failed = Done { digest: 2, ended: Err("no pore opens".into()) };
-        vec![Some(Done { digest: 1, ended: Ok(Kept::of(outcome, 0.5)) }), None, Some(failed)]
+        vec![Some(Done { digest: 1, ended: Ok(observed) }), None, Some(failed)]
     }
 
     #[test]
@@ -117,8 +90,6 @@ mod tests {
         assert_eq!(load(folder.path(), &[1, 5, 2]), example());
         let found = load(folder.path(), &[9, 5, 2, 3]);
         assert!(found.len() == 4 && found[0].is_none() && found[2].is_some());
-        let Some(Ok(kept)) = example().remove(0).map(|done| done.ended) else { panic!("kept") };
-        assert!((0..12).all(|part| kept.is_invaded(part) == (part < 11 && part % 3 == 0)));
     }
 
     #[test]
