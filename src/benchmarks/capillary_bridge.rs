@@ -2,8 +2,8 @@
 
 use super::disc_pair::disc_pair;
 use crate::math::Vec2;
-use crate::solver::Measure;
-use crate::sph::measures::{DiscOf, Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{DiscOf, Group, Subject};
 
 /// Measures of its table `[sph.measure.capillary-bridge]`.
 pub(crate) const GROUP: Group = Group::of(measures);
@@ -27,33 +27,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let tension = s.flow.config.method.tension;
     let pressure = s.observed.capillary_pressure.value;
     vec![
-        measure(
-            "filling-angle-deg",
-            mean,
-            "deg",
-            None,
-            "contact points of the fitted circles from the line of centers",
-        ),
-        measure(
-            "neck-half-width-m",
-            neck,
-            "m",
-            None,
-            "smallest distance of the c = 0.5 contour from the line of centers",
-        ),
-        measure(
-            "capillary-pressure-ratio",
-            ratio(pressure, exact.map(|e| tension * e.curvature)),
-            "",
-            None,
-            "capillary pressure over that of the exact bridge with the same area and the requested angle",
-        ),
-        measure(
-            "filling-angle-ratio",
-            ratio(mean.to_radians(), exact.map(|e| e.filling)),
-            "",
-            None,
-            "filling angle over that of the exact bridge with the same area and the requested angle",
-        ),
+        measure("filling-angle-deg", mean, "deg").by("contact points of the fitted circles from the line of centers"),
+        measure("neck-half-width-m", neck, "m").by("smallest distance of the c = 0.5 contour from the line of centers"),
+        measure("capillary-pressure-ratio", ratio(pressure, exact.map(|e| tension * e.curvature)), "")
+            .by("capillary pressure over that of the exact bridge with the same area and the requested angle"),
+        measure("filling-angle-ratio", ratio(mean.to_radians(), exact.map(|e| e.filling)), "")
+            .by("filling angle over that of the exact bridge with the same area and the requested angle"),
     ]
 }

@@ -6,9 +6,9 @@ use nalgebra::Complex;
 
 use super::series::pairs;
 use super::waves::inverse_laplace;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Group, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
@@ -77,7 +77,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let equal = m.wetting_fluid == m.other_fluid;
     let error = if equal { (squares / times.len() as f64).sqrt() } else { f64::NAN };
     let method = "root mean square over the records of amplitude over first amplitude less the linear viscous solution for equal fluids";
-    vec![measure("wave-rms-error", error, "", None, method)]
+    vec![measure("wave-rms-error", error, "").by(method)]
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use crate::analysis::resample::Stencils;
 use crate::math::Vec2;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{Group, Subject};
 use crate::sph::observe::fluid_samples;
 
 /// Measures of its table `[sph.measure.cavity]`.
@@ -29,8 +29,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let u = upright.iter().map(|v| v.x / lid).fold(f64::NAN, f64::min);
     let [least, most] = [f64::min, f64::max].map(|pick| level.iter().map(|v| v.y / lid).fold(f64::NAN, pick));
     vec![
-        measure("u-min", u, "", None, "least velocity along the lid on the upright center line, over that of the lid"),
-        measure("v-max", most, "", None, "largest upward velocity on the level center line, over that of the lid"),
-        measure("v-min", least, "", None, "least upward velocity on the level center line, over that of the lid"),
+        measure("u-min", u, "").by("least velocity along the lid on the upright center line, over that of the lid"),
+        measure("v-max", most, "").by("largest upward velocity on the level center line, over that of the lid"),
+        measure("v-min", least, "").by("least upward velocity on the level center line, over that of the lid"),
     ]
 }

@@ -1,7 +1,7 @@
 //! Rise beside a plate that divides a trough into a narrow and a wide part (C3 of the benchmarks; Jurin's law).
 
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{Group, Subject};
 use crate::sph::particles::Phase;
 
 /// Measures of its table `[sph.measure.jurin]`.
@@ -34,20 +34,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let mean = |width: f64| jurin_mean_height(width, length, wetting.static_angle());
     let exact = mean(widths[0]) - mean(widths[1]);
     vec![
-        measure(
-            "rise-difference-m",
-            rise,
-            "m",
-            None,
-            "mean level (area over width) left of the plate less that right of it, at the end",
-        ),
-        measure(
-            "rise-ratio",
-            rise / exact,
-            "",
-            None,
-            "difference of the mean levels over that of Jurin's law on both sides",
-        ),
+        measure("rise-difference-m", rise, "m")
+            .by("mean level (area over width) left of the plate less that right of it, at the end"),
+        measure("rise-ratio", rise / exact, "")
+            .by("difference of the mean levels over that of Jurin's law on both sides"),
     ]
 }
 

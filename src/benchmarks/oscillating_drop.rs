@@ -10,9 +10,9 @@ use super::damped;
 use super::moments::Moments;
 use super::series::pairs;
 use super::waves::inverse_laplace;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Group, Subject};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.oscillating-drop]`.
@@ -119,10 +119,12 @@ fn measures(s: &Subject) -> Vec<Measure> {
         "damped oscillation fitted to the elongation of the wetting phase along x, without the first quarter period";
     let over = "over that of the linear viscous solution for a drop in an equal fluid, fitted at the same times";
     vec![
-        measure("period-s", period, "s", fit.map(|fit| period * fit.errors[0] / fit.frequency), method),
-        measure("decay-rate", decay, "1/s", fit.map(|fit| fit.errors[1]), method),
-        measure("period-ratio", exact.map_or(f64::NAN, |e| period * e.frequency / TAU), "", None, over),
-        measure("decay-rate-ratio", exact.map_or(f64::NAN, |e| decay / e.decay), "", None, over),
+        measure("period-s", period, "s")
+            .by(method)
+            .with_uncertainty(fit.map(|fit| period * fit.errors[0] / fit.frequency)),
+        measure("decay-rate", decay, "1/s").by(method).with_uncertainty(fit.map(|fit| fit.errors[1])),
+        measure("period-ratio", exact.map_or(f64::NAN, |e| period * e.frequency / TAU), "").by(over),
+        measure("decay-rate-ratio", exact.map_or(f64::NAN, |e| decay / e.decay), "").by(over),
     ]
 }
 

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::analysis::roots::bisect;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{Group, Subject};
 use crate::sph::open::{Drive, OpenSide};
 
 /// Measures of its table `[sph.measure.poiseuille]`.
@@ -113,8 +113,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
                   the steady parabola";
     let method_of_slip = "b of the parabola a (y (H - y) + H b) fitted to the velocities at the end; of a steady flow";
     vec![
-        measure("velocity-l2-error", (error / size).sqrt(), "", None, method),
-        measure("slip-length-m", slip, "m", None, method_of_slip),
+        measure("velocity-l2-error", (error / size).sqrt(), "").by(method),
+        measure("slip-length-m", slip, "m").by(method_of_slip),
     ]
 }
 

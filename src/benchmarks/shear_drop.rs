@@ -2,8 +2,8 @@
 
 use super::moments::Moments;
 use super::oscillating_drop::{columns, drop};
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{Group, Subject};
 
 /// Columns and measures of its table `[sph.measure.shear-drop]`.
 pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
@@ -16,19 +16,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let capillary = m.other_fluid.viscosity * rate * drop(s).radius / m.tension;
     let deformation = Moments::of_wetting_phase(s.flow).deformation();
     vec![
-        measure(
-            "deformation",
-            deformation,
-            "",
-            None,
-            "(L - B)/(L + B) of the ellipse with the second moments of the wetting phase, at the end",
-        ),
-        measure(
-            "deformation-ratio",
-            deformation / capillary,
-            "",
-            None,
-            "deformation over the capillary number viscosity x shear rate x radius / tension, its value for small drops in the plane",
-        ),
+        measure("deformation", deformation, "")
+            .by("(L - B)/(L + B) of the ellipse with the second moments of the wetting phase, at the end"),
+        measure("deformation-ratio", deformation / capillary, "")
+            .by("deformation over the capillary number viscosity x shear rate x radius / tension, its value for \
+                 small drops in the plane"),
     ]
 }

@@ -1,10 +1,10 @@
 //! Filling of a slit between two open sides by the wetting phase (C5 of the benchmarks).
 
 use super::series::pairs;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::domain::ImageVelocity;
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Group, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
@@ -114,21 +114,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let worst = lengths.iter().zip(&exact).map(|(found, exact)| (found - exact).abs()).fold(0.0, f64::max);
     let method = "area of the wetting phase over the width; exact: both columns with the friction of a parabola and the static angle";
     vec![
-        measure("filled-length-m", last, "m", None, "area of the wetting phase over the width, at the end"),
-        measure(
-            "filling-ratio",
-            (last - first) / advance,
-            "",
-            None,
-            &format!("advance of the meniscus over the exact one; {method}"),
-        ),
-        measure(
-            "filling-error",
-            worst / advance,
-            "",
-            None,
-            &format!("largest difference over all records, over the whole advance; {method}"),
-        ),
+        measure("filled-length-m", last, "m").by("area of the wetting phase over the width, at the end"),
+        measure("filling-ratio", (last - first) / advance, "")
+            .by(format!("advance of the meniscus over the exact one; {method}")),
+        measure("filling-error", worst / advance, "")
+            .by(format!("largest difference over all records, over the whole advance; {method}")),
     ]
 }
 

@@ -1,8 +1,8 @@
 //! The exponent of a drop spreading on a wall (C13 of the benchmarks; Tanner's law in two dimensions: 1/7).
 
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Group, Subject};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.spreading]`.
@@ -37,5 +37,5 @@ fn measures(s: &Subject) -> Vec<Measure> {
         .zip(&weights)
         .fold((0.0, 0.0), |(up, down), (p, w)| (up + w * (p.0 - x) * (p.1 - y), down + w * (p.0 - x).powi(2)));
     let method = "slope of the logarithm of the base over that of the time in the last decade of the run, all of it weighed alike";
-    vec![measure("spreading-exponent", up / down, "", None, method)]
+    vec![measure("spreading-exponent", up / down, "").by(method)]
 }

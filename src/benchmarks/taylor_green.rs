@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{Group, Subject};
 
 /// Measures of its table `[sph.measure.taylor-green]`.
 pub(crate) const GROUP: Group = Group::of(measures);
@@ -22,7 +22,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let exact = taylor_green_decay(fluid.viscosity / fluid.density, length, flow.state.time).ln();
     let error = 0.5 * (last / first).ln() / exact - 1.0;
     let method = "rate of decay of the square root of the kinetic energy over the run, over 8 pi^2 nu/L^2, less 1";
-    vec![measure("decay-rate-error", error, "", None, method)]
+    vec![measure("decay-rate-error", error, "").by(method)]
 }
 
 #[cfg(test)]

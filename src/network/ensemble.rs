@@ -9,7 +9,6 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Element, Phase};
 use super::dynamic::solver::DynamicSolver;
 use super::films::CurvePoint;
-use super::flow::along;
 use super::locate::{inner_point, located};
 use super::measures::Costly;
 use super::model::{Configuration, Model};
@@ -69,17 +68,10 @@ impl Sample {
     ///
     /// # Errors
     /// [`SetupError`] if there is no such network.
-    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork, costly: Costly) -> Result<Self, SetupError> {
-        let mut quasi_static = build_on(ground, wanted, case.depth)?;
-        if costly.permeabilities && case.depth == ground.network.depth {
-            quasi_static.model = quasi_static.model.with_conductances(ground.conductances().to_vec());
-            let found = ground.permeabilities(|| [0, 1].map(|axis| along(&quasi_static.model, axis)));
-            quasi_static.model = quasi_static.model.with_permeabilities(found);
-        }
+    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork) -> Result<Self, SetupError> {
+        let quasi_static = build_on(ground, wanted, case.depth)?;
         Ok(match in_time(wanted, &quasi_static)? {
-            Some((dynamic, invading, end)) => {
-                Self::InTime(Box::new(DynamicSolver::new(quasi_static, dynamic, invading, end)))
-            }
+            Some(solver) => Self::InTime(Box::new(solver)),
             None => Self::QuasiStatic(Box::new(quasi_static)),
         })
     }
@@ -141,7 +133,7 @@ fn quasi_static(
     if let Some(cycles) = &mut solver.model.cycles {
         let mut half_cycle = 0;
         while cycles.advance().is_some() {
-            if cycles.steps() % BETWEEN_LOOKS == 0 && interrupt.load(Ordering::Relaxed) {
+            if cycles.steps % BETWEEN_LOOKS == 0 && interrupt.load(Ordering::Relaxed) {
                 return None;
             }
             if half_cycle == 0 && cycles.half_cycle_index() == 1 {
@@ -179,7 +171,7 @@ fn at_turn(cycles: &Cycles) -> Vec<bool> {
     let holds = |element: usize| match displacement.phase(element) {
         Phase::Defending => true,
         // The start of the next half cycle has filled it.
-        Phase::Invading => cycles.invasions()[element].is_some(),
+        Phase::Invading => cycles.record.invasions[element].is_some(),
     };
     (0..displacement.elements().len()).map(holds).collect()
 }
@@ -234,7 +226,7 @@ fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
         let invading = cycles.half_cycles()[half_cycle].invading;
         let first = outcome.first_saturation[1];
         if cycles.has_films() {
-            let points = cycles.curve().iter().filter(|point| point.half_cycle == half_cycle);
+            let points = cycles.record.curve.iter().filter(|point| point.half_cycle == half_cycle);
             let points: Vec<[f64; 2]> =
                 points.map(|point: &CurvePoint| [point.saturation, tension * point.curvature]).collect();
             return at_saturations(invading, first, &points, true);

@@ -45,7 +45,7 @@ fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowErro
 pub(crate) fn along(model: &Model, axis: usize) -> f64 {
     let everywhere = || vec![true; model.config.network.regions.len()];
     let find = || drive(&model.config, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
-    model.permeability(axis, || find().unwrap_or(f64::NAN))
+    *model.config.derived.permeabilities[axis].get_or_init(|| find().unwrap_or(f64::NAN))
 }
 
 /// For each region whether the wetting phase holds most of it after these invasions of the last half cycle, and the saturation.
@@ -53,10 +53,10 @@ fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&I
     let invading = cycles.half_cycle().invading;
     let regions = config.network.regions.len();
     let (mut wetting, mut all) = (vec![0.0; regions], vec![0.0; regions]);
-    let counted = cycles.counted();
+    let counted = &cycles.counted;
     let mut counted_wetting = 0.0;
     for (index, element) in cycles.displacement().elements().iter().enumerate() {
-        let is_invaded = match &cycles.invasions()[index] {
+        let is_invaded = match &cycles.record.invasions[index] {
             Some(invasion) => has_come(invasion),
             None => cycles.displacement().phase(index) == Phase::Invading,
         };
@@ -76,7 +76,7 @@ fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&I
 /// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, k_r of wetting and non-wetting phase.
 pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
     let Some(cycles) = model.cycles.as_ref() else { return Vec::new() };
-    let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
+    let displaced = cycles.record.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     // The initial filling counts as displaced; before it, nothing is.
     let at = |share: &f64| if *share > 0.0 { share * displaced } else { -1.0 };
     let states = states.iter().map(at);

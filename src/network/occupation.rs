@@ -54,7 +54,7 @@ impl Cycles {
             invading: self.half_cycle().invading,
             share: (0..elements.len()).map(|e| f64::from(u8::from(displacement.phase(e) == Phase::Invading))).collect(),
             trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),
-            invasions: self.invasions().into(),
+            invasions: (&self.record.invasions[..]).into(),
             passed: present.map(|entry| entry.throat).collect(),
             menisci: self.menisci(),
             films: self.observed_films(),

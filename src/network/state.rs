@@ -62,10 +62,7 @@ pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment)
         largest_applied_curvature_per_m: moment.applied,
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,
-        saturation_with_menisci: invading.map(|share| match half.invading {
-            FluidPhase::Wetting => share,
-            FluidPhase::NonWetting => 1.0 - share,
-        }),
+        saturation_with_menisci: invading.map(|share| half.invading.saturation(share)),
         elements: elements(half, moment, &interfaces.trapped),
         menisci: interfaces.menisci.iter().map(|one| meniscus(half, one)).collect(),
         snapped_throats: displacement.closed_throats(),

@@ -55,9 +55,6 @@ pub(crate) struct Outcome {
     pub(crate) pores: usize,
 }
 
-/// No measure that takes long.
-const NONE: Costly = Costly { permeabilities: false, entry_pressures: false };
-
 /// The error of a case without a network.
 const NO_NETWORK: &str = "the case has no network";
 
@@ -78,12 +75,12 @@ impl Ground {
     /// # Errors
     /// What is wrong, as text.
     pub(crate) fn map(&self, case: &Case) -> Result<Map, String> {
-        Ok(Map(self.sample(case, NONE)?.reference()))
+        Ok(Map(self.sample(case)?.reference()))
     }
 
-    fn sample(&self, case: &Case, costly: Costly) -> Result<Sample, String> {
+    fn sample(&self, case: &Case) -> Result<Sample, String> {
         let network = network(case).ok_or(NO_NETWORK)?;
-        Sample::on(&self.0, case, network, costly).map_err(|error| error.to_string())
+        Sample::on(&self.0, case, network).map_err(|error| error.to_string())
     }
 
     /// Runs a case on this network, without the costly measures that are left out; `None` if it was interrupted.
@@ -99,7 +96,7 @@ impl Ground {
     ) -> Result<Option<Outcome>, String> {
         let schedule = Schedule::new(&case.output, case.end);
         let stop = |time: f64| schedule.next_after(time).map(|stop| (stop.time, stop.due.series));
-        let sample = self.sample(case, costly)?;
+        let sample = self.sample(case)?;
         let observed = sample.observed(&map.0, costly, &stop, interrupt).map_err(|error| error.to_string())?;
         Ok(observed.map(|observed| Outcome {
             measures: observed.measures.into_iter().map(|one| (one.name, one.unit, one.value)).collect(),

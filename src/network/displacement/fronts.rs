@@ -1,5 +1,6 @@
 //! Menisci in gates: their passages, pending events, and neighbors along the walls.
 
+use super::driven::FrontId;
 use super::event::{Candidate, EventKind};
 use super::loops::Loop;
 use super::mesh::Mesh;
@@ -27,9 +28,9 @@ pub(super) struct Neighbor {
 }
 
 impl Displacement {
-    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, shifted by `offset` in m.
-    fn passage(&self, mesh: &Mesh, gate: usize, to: usize, offset: Vec2) -> (Passage, Vec<Curve>) {
-        self.passage_at(&self.conditions.angle, mesh, (gate, to), offset)
+    /// The passage of a meniscus, and the walls ahead, shifted by `offset` in m.
+    pub(super) fn passage(&self, mesh: &Mesh, front: FrontId, offset: Vec2) -> (Passage, Vec<Curve>) {
+        self.passage_at(&self.conditions.angle, mesh, front, offset)
     }
 
     /// The same with other contact angles in rad.
@@ -37,7 +38,7 @@ impl Displacement {
         &self,
         angles: &[f64],
         mesh: &Mesh,
-        (gate, to): (usize, usize),
+        (gate, to): FrontId,
         offset: Vec2,
     ) -> (Passage, Vec<Curve>) {
         let walls = gate_walls(mesh, gate, to, &self.centers);
@@ -53,7 +54,7 @@ impl Displacement {
 
     /// Places a meniscus in a gate, to enter the element at its end `to`, with its pending events.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
-        let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
+        let (passage, obstacles) = self.passage(mesh, (gate, to), Vec2::zeros());
         let (mut kind, mut own) = self.own_event(&passage, &obstacles);
         // A touch before a measured burst remains a touch.
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
@@ -85,7 +86,7 @@ impl Displacement {
             let Some(neighbor) = self.neighbor(mesh, (gate, to), hand) else { continue };
             let (other, end) = neighbor.front;
             let Some(front) = &self.fronts[other][end] else { continue };
-            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, other, end, neighbor.offset).0);
+            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, (other, end), neighbor.offset).0);
             let facing = moved.as_ref().unwrap_or(&front.passage);
             let (a, b) = if hand == Hand::Left { (passage, facing) } else { (facing, passage) };
             if let Some(curvature) = overlap(a, b, neighbor.shared, own.min(front.own)) {
@@ -155,8 +156,8 @@ impl Displacement {
         hand: Hand,
         neighbor: &Neighbor,
     ) -> (Passage, Vec<Curve>) {
-        let (one, mut obstacles) = self.passage(mesh, front.0, front.1, Vec2::zeros());
-        let (other, beyond) = self.passage(mesh, neighbor.front.0, neighbor.front.1, neighbor.offset);
+        let (one, mut obstacles) = self.passage(mesh, front, Vec2::zeros());
+        let (other, beyond) = self.passage(mesh, neighbor.front, neighbor.offset);
         obstacles.extend(beyond);
         let (left, right) = if hand == Hand::Left { (&other, &one) } else { (&one, &other) };
         let own = |curve: &Curve| {

@@ -14,7 +14,7 @@ use super::event::{Candidate, EventKind};
 use super::fronts::Neighbor;
 use super::loops::GateId;
 use super::mesh::Gate;
-use super::progress::Displacement;
+use super::progress::{Displacement, Division};
 use super::wall_chains::{Side, WallChains};
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Meniscus, Passage};
@@ -76,16 +76,16 @@ pub(crate) struct Beginning {
 impl Displacement {
     /// A displacement with given initial phases; like [`new`](Self::new), it fills elements open at an inlet.
     pub(crate) fn beginning(network: &Network, pores: &Pores, conditions: Conditions, beginning: &Beginning) -> Self {
-        let fresh = Self::new(network, pores, Conditions { inlet: [false; 4], ..conditions.clone() });
-        let mut invaded = vec![false; fresh.mesh.elements.len()];
-        let mut held = vec![f64::NAN; fresh.mesh.elements.len()];
-        for (index, &element) in fresh.mesh.element_of.iter().enumerate() {
+        let division = Division::of(network, pores, conditions.events);
+        let mut invaded = vec![false; division.mesh.elements.len()];
+        let mut held = vec![f64::NAN; division.mesh.elements.len()];
+        for (index, &element) in division.mesh.element_of.iter().enumerate() {
             invaded[element] |= beginning.invaded[index];
             held[element] = beginning.held[index];
         }
         let is_closed = |gate: &Gate| gate.throat.is_some_and(|throat| beginning.closed.contains(&throat));
-        let closed = fresh.mesh.gates.iter().map(is_closed).collect();
-        let mut begun = Self::begun((fresh.mesh, fresh.elements, fresh.centers), conditions, invaded, closed);
+        let closed = division.mesh.gates.iter().map(is_closed).collect();
+        let mut begun = Self::begun(division, conditions, invaded, closed);
         (begun.applied, begun.held) = (beginning.applied, held);
         begun
     }
@@ -94,7 +94,6 @@ impl Displacement {
     /// lowest at which one of them would advance, since its area is constant; NaN if not trapped.
     fn trapped_curvatures(&self) -> Vec<f64> {
         let mesh = &self.mesh;
-        let angles = &self.conditions.angle;
         let mut found = vec![f64::NAN; mesh.elements.len()];
         let mut is_visited = vec![false; mesh.elements.len()];
         for first in (0..mesh.elements.len()).filter(|&element| self.connection.trapped[element]) {
@@ -109,7 +108,7 @@ impl Displacement {
                 for &(gate, to) in &mesh.elements[element].gates {
                     let beyond = mesh.element(gate, 1 - to);
                     if self.invaded[beyond] {
-                        let (passage, obstacles) = self.passage_at(angles, mesh, (gate, to), Vec2::zeros());
+                        let (passage, obstacles) = self.passage(mesh, (gate, to), Vec2::zeros());
                         curvature = curvature.min(self.own_event(&passage, &obstacles).1);
                     } else if self.connection.trapped[beyond] && !std::mem::replace(&mut is_visited[beyond], true) {
                         region.push(beyond);
@@ -186,7 +185,7 @@ impl Displacement {
             };
             let curvature = if curvature.is_nan() { applied } else { curvature };
             let own = self.fronts[gate][to].as_ref().map(|front| front.passage.clone());
-            let passage = own.unwrap_or_else(|| self.passage_of((gate, to)));
+            let passage = own.unwrap_or_else(|| self.passage(mesh, (gate, to), Vec2::zeros()).0);
             let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
             found.extend(self.at(&passage, curvature.min(burst), &[(gate, to)]));
         }
@@ -227,10 +226,6 @@ impl Displacement {
             advances: [0.0; 2],
             gates: vec![(gate, to)],
         }
-    }
-
-    fn passage_of(&self, (gate, to): (usize, usize)) -> Passage {
-        self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()).0
     }
 
     /// Pairs of merged menisci.
