@@ -118,6 +118,9 @@ fn a_fresh_network_keeps_the_contract_and_has_the_permeability_of_openpnm() {
     let directory = folder_with_drainage();
     let out = directory.path().join("out");
     run(script("check_output.py").arg(&out), "the output must keep the contract");
+    let tables = run(script("reservoir_tables.py").arg(&out), "the saturation functions must be written");
+    let has = |line: &str| tables.lines().any(|found| found.starts_with(line));
+    assert!(has("SWOF") && has("SGOF") && has("  1.000000   1.00000000   0.00000000"), "{tables}");
     let mut ratio = Command::new(network_interpreter());
     ratio.current_dir(root().join("postprocess")).arg("-c").arg(
         "import sys, network_to_openpnm as n; f = n.measure(sys.argv[1]); print(f['permeability'] / f['permeability_ours'])",

@@ -3,12 +3,9 @@
 use super::disc_pair::disc_pair;
 use crate::math::Vec2;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{DiscOf, Group, Subject};
+use crate::sph::measures::{DiscOf, Subject};
 
-/// Measures of its table `[sph.measure.capillary-bridge]`.
-pub(crate) const GROUP: Group = Group::of(measures);
-
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let [a, b, ..] = s.discs else { return vec![] };
     let axis = (b.center - a.center).normalize();
     let middle = 0.5 * (a.center + b.center);

@@ -5,14 +5,11 @@ use super::slit_filling::entry;
 use crate::math::Vec2;
 use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 
-/// Columns and measures of its table `[sph.measure.capillary-rise]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
-
 /// `apex_m`: distance of the nearest point of the interface from the side through which the wetting phase enters.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let apex = entry(flow).map_or(f64::NAN, |side| {
         let points = observation.interface.iter().flat_map(|line| &line.points);
         points.map(|x: &Vec2| -side.overshoot(*x)).fold(f64::INFINITY, f64::min)
@@ -20,7 +17,7 @@ fn columns(flow: &Flow, observation: &Observation) -> Columns {
     vec![("apex_m", apex)]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (times, heights) = pairs(s.series, "apex_m");
     let Some(&last) = heights.last() else { return vec![] };
     let turn = |from: usize, sign: f64| {

@@ -8,12 +8,9 @@ use super::series::pairs;
 use super::waves::inverse_laplace;
 use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-
-/// Columns and measures of its table `[sph.measure.capillary-wave]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A standing wave on the flat interface of two equal fluids.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +49,7 @@ impl CapillaryWave {
 }
 
 /// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, with the crest in the middle of the box.
-fn columns(flow: &Flow, _: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, _: &Observation) -> Columns {
     let (bounds, fluids) = (flow.config.domain.bounds, flow.state.particles.fluids);
     let length = bounds.size().x;
     let mode = |a: usize| {
@@ -63,7 +60,7 @@ fn columns(flow: &Flow, _: &Observation) -> Columns {
     vec![("wave_amplitude_m", 2.0 / length * wetting.map(mode).sum::<f64>())]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.config.method;
     let wave = CapillaryWave {
         length: s.flow.config.domain.bounds.size().x,

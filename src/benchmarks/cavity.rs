@@ -3,16 +3,13 @@
 use crate::analysis::resample::Stencils;
 use crate::math::Vec2;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
+use crate::sph::measures::Subject;
 use crate::sph::observe::fluid_samples;
-
-/// Measures of its table `[sph.measure.cavity]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Points on a center line: much denser than the particles, to resolve the extremum.
 const POINTS: usize = 400;
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds) = (s.flow, s.flow.config.domain.bounds);
     let lid = s.wall_speeds[3];
     let velocity = &flow.state.particles.velocity[..flow.state.particles.fluids];

@@ -3,12 +3,9 @@
 use super::series::pairs;
 use crate::math::Vec2;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
+use crate::sph::measures::Subject;
 
-/// Measures of its table `[sph.measure.cylinder-array]`.
-pub(crate) const GROUP: Group = Group::of(measures);
-
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, m) = (s.flow, &s.flow.config.method);
     let area = flow.config.domain.bounds.area();
     let p = &flow.state.particles;

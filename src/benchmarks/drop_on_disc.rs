@@ -5,10 +5,7 @@ use std::f64::consts::PI;
 use crate::analysis::roots::bisect;
 use crate::interface::cap::cap;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
-
-/// Measures of its table `[sph.measure.drop-on-disc]`.
-pub(crate) const GROUP: Group = Group::of(measures);
+use crate::sph::measures::Subject;
 
 /// A drop on a disc without gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +40,7 @@ pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<Dr
     Some(DropOnDisc { half_angle: half_angle(radius), height: distance(radius) + radius - disc_radius })
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.config.method.wetting) else { return vec![] };
     let ends: Vec<_> = s.observed.lines_with_angle().collect();
     let half = match ends[..] {

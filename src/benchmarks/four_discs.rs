@@ -2,12 +2,9 @@
 
 use super::disc_pair::disc_pair;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
+use crate::sph::measures::Subject;
 
-/// Measures of its table `[sph.measure.four-discs]`.
-pub(crate) const GROUP: Group = Group::of(measures);
-
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let found: Vec<f64> = s.observed.lines_with_angle().map(|line| line.curvature).collect();
     let mean = found.iter().sum::<f64>() / found.len() as f64;
     let of_fits =

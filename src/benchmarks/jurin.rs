@@ -1,18 +1,15 @@
 //! Rise beside a plate that divides a trough into a narrow and a wide part (C3 of the benchmarks; Jurin's law).
 
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
+use crate::sph::measures::Subject;
 use crate::sph::particles::Phase;
-
-/// Measures of its table `[sph.measure.jurin]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Mean rise in m between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
 pub(crate) fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
     2.0 * capillary_length.powi(2) * angle.cos() / width
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.config.method.wetting) else { return vec![] };
     let (flow, bounds, m) = (s.flow, s.flow.config.domain.bounds, &s.flow.config.method);
     let widths = [plate.min.x - bounds.min.x, bounds.max.x - plate.max.x];

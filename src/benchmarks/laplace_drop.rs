@@ -5,16 +5,13 @@ use super::series::last;
 use crate::analysis::phases::{PressureSamples, laplace_jump, resolution_error};
 use crate::math::Vec2;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
+use crate::sph::measures::Subject;
 use crate::sph::observe::sharp_color;
-
-/// Measures of its table `[sph.measure.laplace-drop]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Last fraction of the run over which the maximum speed of the parasitic current is taken.
 const LAST: f64 = 0.1;
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, fluids) = (s.flow, s.flow.state.particles.fluids);
     let colors = sharp_color(flow);
     let radius = (s.observed.areas.wetting / std::f64::consts::PI).sqrt();

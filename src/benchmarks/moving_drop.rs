@@ -14,7 +14,7 @@ use crate::interface::wall::WallPoint;
 use crate::math::Vec2;
 use crate::solver::{Measure, Series, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, stream};
+use crate::sph::measures::{Columns, Subject, stream};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::wetting::lines::{TrackedLine, nearest};
@@ -28,9 +28,6 @@ const SAME_LINE: f64 = 6.0;
 
 /// A body force or a stream whose part along the wall is below this fraction does not define the direction ahead.
 const DRIVEN: f64 = 1e-3;
-
-/// Columns and measures of its table `[sph.measure.moving-drop]`.
-pub(crate) const GROUP: Group = Group { columns, measures, warnings: force_balance::warnings };
 
 /// Means over the advancing and over the receding lines.
 struct Ends {
@@ -106,7 +103,7 @@ fn forces(flow: &Flow) -> [Vec2; 2] {
 }
 
 /// Angles, displacements and speeds of both ends, and the forces on the drop along the wall.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let nan = f64::NAN;
     let ends = ends(flow, observation).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
     let [[advancing, travel, speed, at_wall], [receding, travel_behind, speed_behind, at_wall_behind]] = ends.lines;
@@ -144,7 +141,7 @@ fn last_slope(series: &Series, column: &str) -> f64 {
     up / down
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.config.method;
     let fit = "static meniscus under the body force fitted to the half of the contour next to the line (a meniscus that moves as a \
                whole: to all of it), 2h from the wall left out; mean over the last quarter of the records";

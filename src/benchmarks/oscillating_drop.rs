@@ -12,11 +12,8 @@ use super::series::pairs;
 use super::waves::inverse_laplace;
 use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
-
-/// Columns and measures of its table `[sph.measure.oscillating-drop]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A free drop in a fluid of equal density and viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +97,7 @@ pub(super) fn drop(s: &Subject) -> OscillatingDrop {
 ///
 /// The solution is fitted in the same way at the same times: besides the elliptic mode it has a part with algebraic decay, which changes the half periods of
 /// a viscous drop by some percent.
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (m, drop) = (&s.flow.config.method, drop(s));
     let inviscid = drop.frequency();
     let (times, values) = pairs(s.series, "elongation");

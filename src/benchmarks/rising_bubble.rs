@@ -8,15 +8,12 @@ use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::solver::{Measure, Series, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
-/// Columns and measures of its table `[sph.measure.rising-bubble]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
-
 /// Height of the center, mean rise velocity, and circularity.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let center = Moments::of_wetting_phase(flow).center;
     vec![
         ("bubble_center_m", center.dot(&up(flow))),
@@ -52,7 +49,7 @@ fn turn(series: &Series, column: &str, sign: f64) -> Extremum {
     extremum(&times, &values, row.unwrap_or(values.len()))
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let fastest = turn(s.series, "bubble_speed_m_per_s", 1.0);
     let least = turn(s.series, "bubble_circularity", -1.0);
     let between = "over all records, by the parabola through the three records there";

@@ -12,11 +12,8 @@ use crate::math::Vec2;
 use crate::solver::{Measure, measure};
 use crate::sph::domain::{ImageVelocity, Mirror};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
-
-/// Columns and measures of its table `[sph.measure.sessile-drop]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 const BASE: &str = "base_m";
 const HEIGHT: &str = "height_m";
@@ -168,12 +165,12 @@ fn areas(s: &Subject) -> [f64; 2] {
     [whole * s.observed.areas.wetting, whole * s.observed.areas.non_wetting]
 }
 
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let Extent { base, height } = Extent::of(flow, observation);
     vec![(BASE, base.value), (HEIGHT, height.value)]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let Extent { base, height } = Extent::of(s.flow, s.observed);
     let of_base = "distance of the two contact points of the fitted meniscus";
     let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";

@@ -1,15 +1,12 @@
 //! A free drop deformed by shear between two walls (B5 of the benchmarks).
 
 use super::moments::Moments;
-use super::oscillating_drop::{columns, drop};
+use super::oscillating_drop::drop;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
-
-/// Columns and measures of its table `[sph.measure.shear-drop]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
+use crate::sph::measures::Subject;
 
 /// Deformation of a drop between walls moving in opposite directions.
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (m, height) = (&s.flow.config.method, s.flow.config.domain.bounds.size().y);
     let [_, _, bottom, top] = s.wall_speeds;
     let rate = (top - bottom).abs() / height;

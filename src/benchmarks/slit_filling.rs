@@ -4,13 +4,10 @@ use super::series::pairs;
 use crate::solver::{Measure, measure};
 use crate::sph::domain::ImageVelocity;
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
-
-/// Columns and measures of its table `[sph.measure.slit-filling]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A slit with a wetting liquid behind its meniscus and another fluid ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,7 +79,7 @@ fn across(flow: &Flow, side: &OpenSide) -> f64 {
 }
 
 /// `filled_length_m`: area of the wetting phase over the width.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let length = entry(flow).map_or(f64::NAN, |side| observation.areas.wetting / across(flow, side));
     vec![("filled_length_m", length)]
 }
@@ -105,7 +102,7 @@ fn law(s: &Subject) -> Option<SlitFilling> {
     })
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let Some(law) = law(s) else { return vec![] };
     let (times, lengths) = pairs(s.series, "filled_length_m");
     let Some((&first, &last)) = lengths.first().zip(lengths.last()) else { return vec![] };

@@ -2,21 +2,18 @@
 
 use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 
-/// Columns and measures of its table `[sph.measure.spreading]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
-
 /// Distance between the two contact points in m.
-fn columns(_: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(_: &Flow, observation: &Observation) -> Columns {
     let lines: Vec<_> = observation.lines_with_angle().collect();
     // Contours continue across periodic sides, so the distance of the two ends of a drop needs no minimum image.
     let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
     vec![("base_m", base)]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let end = s.series.column("time_s").last().unwrap_or(f64::NAN);
     let all = s.series.column("time_s").zip(s.series.column("base_m"));
     let decade: Vec<(f64, f64)> =

@@ -3,17 +3,14 @@
 use std::f64::consts::PI;
 
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
-
-/// Measures of its table `[sph.measure.taylor-green]`.
-pub(crate) const GROUP: Group = Group::of(measures);
+use crate::sph::measures::Subject;
 
 /// Speed of a Taylor-Green vortex of period `length` (m) relative to its initial speed: exp(-8 pi² nu t/L²).
 pub(crate) fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
     (-8.0 * PI * PI * kinematic_viscosity * time / (length * length)).exp()
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let flow = s.flow;
     let fluid = flow.config.method.wetting_fluid;
     let mut energy = s.series.column("kinetic_energy_J_per_m");

@@ -4,10 +4,7 @@ use std::f64::consts::PI;
 
 use crate::analysis::roots::bisect;
 use crate::solver::{Measure, measure};
-use crate::sph::measures::{Group, Subject};
-
-/// Measures of its table `[sph.measure.throat-entry]`.
-pub(crate) const GROUP: Group = Group::of(measures);
+use crate::sph::measures::Subject;
 
 /// Entry curvature p_c*/sigma in 1/m of the throat between two discs with `radii` (m) and centers `distance` (m) apart.
 ///
@@ -19,7 +16,7 @@ pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Opt
     Some(1.0 / r)
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, h) = (s.flow.config.method.tension, s.flow.config.method.kernel.h);
     let found = &s.observed.capillary_pressure;
     let pressure = measure("entry-pressure-Pa", found.value, "Pa")

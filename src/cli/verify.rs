@@ -13,8 +13,6 @@ use crate::study::load::load;
 use crate::study::results::{RunResult, results};
 use crate::study::runs::plan as plan_runs;
 use crate::verify::choose::{Choice, choose};
-use crate::verify::event_results::{EventRow, event_row};
-use crate::verify::events::{EventChoice, choose_events};
 use crate::verify::fluids::Fluids;
 use crate::verify::plan::{self, Plan, Planned, RUNS};
 use crate::verify::report;
@@ -22,7 +20,7 @@ use crate::verify::results::{Row, Status, row};
 use crate::verify::subdomain::Impossible;
 use crate::verify::subject::{Subject, SubjectError};
 
-/// Selects throats and events, writes the cases, runs them, and prints the results.
+/// Selects throats, writes the cases, runs them, and prints the results.
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
@@ -31,29 +29,23 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         SubjectError::Setup(misfit) => source.refused(&misfit.into()).into(),
         other => bad(&other),
     })?;
-    let choices: Vec<Choice> = parsed(&arguments.throats)?;
-    let event_choices: Vec<EventChoice> = parsed(&arguments.events)?;
+    let choices: Vec<Choice> =
+        arguments.throats.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(|error| usage(&error))?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
-    let mut events = choose_events(&subject, &event_choices, arguments.seed).map_err(|error| usage(&error))?;
     let given = if arguments.alike { [None; 2] } else { subject.fluids };
     let fluids = Fluids { given, tension: subject.tension, invading: subject.invading, chip: subject.chip };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let plan = Plan { throats: &planned, events: &events, fluids: &fluids, spacings: &spacings, network: &name };
+    let plan = Plan { throats: &planned, fluids: &fluids, spacings: &spacings, network: &name };
     let written = plan::write(&folder, &plan).map_err(|error| usage(&error))?;
     for (index, why) in written.refused {
         planned[index].subdomain = Err(Impossible::Case(why));
     }
-    for (index, why) in written.refused_events {
-        events[index].subdomain = Err(Impossible::Case(why));
-    }
-    let throats = planned.iter().map(|one| ("throat", one.chosen.number, one.subdomain.as_ref().err()));
-    let all = throats.chain(events.iter().map(|one| ("event", one.number, one.subdomain.as_ref().err())));
-    for (what, number, why) in all {
-        if let Some(why) = why {
-            tell(format_args!("{what} {number}: cut-out impossible: {why}"));
+    for one in &planned {
+        if let Err(why) = &one.subdomain {
+            tell(format_args!("throat {}: cut-out impossible: {why}", one.chosen.number));
         }
     }
     for kept in &written.kept {
@@ -61,10 +53,6 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     }
     let subdomain = planned.iter().filter(|one| one.subdomain.is_ok()).count();
     tell(format_args!("{} throats, {subdomain} with a cut-out -> {}", planned.len(), folder.display()));
-    if !events.is_empty() {
-        let subdomain = events.iter().filter(|one| one.subdomain.is_ok()).count();
-        tell(format_args!("{} events, {subdomain} with a cut-out", events.len()));
-    }
     let runs_in = folder.join(RUNS);
     let mut code = DONE;
     let mut found = Vec::new();
@@ -80,22 +68,15 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         return Ok(code);
     }
     let rows: Vec<Row> = planned.iter().map(|one| row(one, &fluids, &spacings, &found)).collect();
-    let study_folder = StudyFolder::new(&runs_in);
-    let event_rows: Vec<EventRow> =
-        events.iter().map(|one| event_row(one, &fluids, &spacings, &found, &study_folder)).collect();
     let title = format!("Throats of {name} by direct simulation");
-    let written = report::write(&folder, &subject, &rows, &event_rows, (&spacings, &fluids), &title)
-        .map_err(|error| usage(&error))?;
+    let written =
+        report::write(&folder, &subject, &rows, (&spacings, &fluids), &title).map_err(|error| usage(&error))?;
     say(&title);
     if !rows.is_empty() {
         say(written.table.markdown().trim_end());
     }
-    if let Some(table) = &written.events {
-        say(table.markdown().trim_end());
-    }
     report::notes(&rows, &fluids, &spacings).iter().for_each(|note| say(format_args!("  note        {note}")));
-    let times = rows.iter().map(|row| row.wall_time).chain(event_rows.iter().map(|row| row.wall_time));
-    let time = times.sum::<f64>();
+    let time = rows.iter().map(|row| row.wall_time).sum::<f64>();
     say(format_args!("  all runs    {}", duration(time)));
     say(format_args!(
         "  replaced    {} of {} entry pressures, in {}",
@@ -105,16 +86,8 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     ));
     say(format_args!("  page        {}", written.page.display()));
     say(format_args!("  table       {}", folder.join("verify.csv").display()));
-    if written.events.is_some() {
-        say(format_args!("  events      {}", folder.join("verify_events.csv").display()));
-    }
-    let mut statuses = rows.iter().map(|row| &row.status).chain(event_rows.iter().map(|row| &row.status));
-    let failed = statuses.any(|status| matches!(status, Status::Failed(_)));
+    let failed = rows.iter().any(|row| matches!(row.status, Status::Failed(_)));
     Ok(if failed { SOLVER_FAILED } else { DONE })
-}
-
-fn parsed<T: std::str::FromStr<Err = String>>(texts: &[String]) -> Result<Vec<T>, Failure> {
-    texts.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
 }
 
 fn is_open(results: &[RunResult]) -> bool {

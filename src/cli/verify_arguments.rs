@@ -20,15 +20,12 @@ pub(crate) struct VerifyArguments {
     /// Case file with `[network]` and an interface
     pub(crate) case: PathBuf,
     /// Throats: critical, unsure, random:N, or numbers of throats.csv as in 3,7,12; may be given several times
-    #[arg(long, value_name = "WHICH", required_unless_present = "events")]
+    #[arg(long, value_name = "WHICH", required = true)]
     pub(crate) throats: Vec<String>,
-    /// Touches and overlaps: critical, touch:N, overlap:N, or numbers of events.csv as in 1,4; may be given several times
-    #[arg(long, value_name = "WHICH")]
-    pub(crate) events: Vec<String>,
     /// Spacings across each throat, one run for each
     #[arg(long, value_name = "N,N", value_delimiter = ',', num_args = 1, default_values = ["8", "16"])]
     pub(crate) spacings: Vec<NonZeroU32>,
-    /// Seed of the random throats and events
+    /// Seed of the random throats
     #[arg(long, default_value = "1")]
     pub(crate) seed: u64,
     /// Use two equal fluids that come to rest soon instead of those of [network.phases]; no static pressure depends on them

@@ -119,13 +119,6 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// Reads a series back; empty fields become NaN.
-///
-/// # Errors
-/// [`FileError::Read`] or [`FileError::Content`].
-pub(crate) fn read(path: &Path) -> Result<Series, FileError> {
-    parse(&std::fs::read(path).map_err(FileError::read(path))?, path)
-}
-
 fn parse(bytes: &[u8], path: &Path) -> Result<Series, FileError> {
     let content = |what: String| FileError::Content { path: path.to_path_buf(), what };
     let mut reader = csv::Reader::from_reader(bytes);

@@ -81,7 +81,8 @@ pub struct Cycles {
     pore_area: f64,
     /// The areas to which saturations refer.
     pub(crate) counted: Arc<Counted>,
-    pub(super) displacement: Displacement,
+    /// The displacement of the present half cycle.
+    pub(crate) displacement: Displacement,
     pub(super) half_cycle: usize,
     /// Whether the displacement is over.
     pub(crate) is_done: bool,
@@ -231,8 +232,8 @@ impl Cycles {
         self.displace(&event.elements);
         self.update_films();
         let half = &self.half_cycles[self.half_cycle];
-        let (curvature, half_cycle) = (half.towards_wetting(event.curvature), self.half_cycle);
-        let (saturation, applied) = (self.saturation(), half.towards_wetting(event.applied));
+        let (curvature, half_cycle) = (half.invading.towards_wetting(event.curvature), self.half_cycle);
+        let (saturation, applied) = (self.saturation(), half.invading.towards_wetting(event.applied));
         let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
         self.record.outcomes[self.half_cycle].events += 1;
         let sequence = self.record.outcomes[self.half_cycle].events;
@@ -256,7 +257,7 @@ impl Cycles {
         Moment {
             displacement: self.displacement.clone(),
             half_cycle: self.half_cycle,
-            events: self.outcomes()[self.half_cycle].events,
+            events: self.record.outcomes[self.half_cycle].events,
             applied: self.applied(),
             saturation: tidy(self.wetting_area / self.pore_area),
         }
@@ -307,11 +308,6 @@ impl Cycles {
         &self.half_cycles
     }
 
-    /// Summaries of those that have started.
-    pub(crate) fn outcomes(&self) -> &[Outcome] {
-        &self.record.outcomes
-    }
-
     /// Displaced pore volumes of all half cycles, a sum of areas over the pore area.
     pub(crate) fn displaced(&self) -> f64 {
         self.displaced_area / self.pore_area
@@ -339,10 +335,5 @@ impl Cycles {
         let last = self.record.outcomes.get(self.half_cycle).and_then(|outcome| outcome.last);
         let event = self.record.history.last().filter(|entry| entry.half_cycle == self.half_cycle);
         last.or(event.map(|entry| entry.applied))
-    }
-
-    /// The displacement of the present half cycle.
-    pub(crate) fn displacement(&self) -> &Displacement {
-        &self.displacement
     }
 }

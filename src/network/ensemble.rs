@@ -85,7 +85,7 @@ impl Sample {
 
     fn elements(&self) -> &[Element] {
         match self {
-            Self::QuasiStatic(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement().elements()),
+            Self::QuasiStatic(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement.elements()),
             Self::InTime(solver) => solver.elements(),
         }
     }
@@ -97,7 +97,7 @@ impl Sample {
         let processes = match self {
             Self::QuasiStatic(solver) => solver
                 .cycles()
-                .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.name()).collect()),
+                .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.invading.process()).collect()),
             Self::InTime(_) => Vec::new(),
         };
         Reference { config: self.model().config.clone(), elements, probes, processes }
@@ -150,7 +150,7 @@ fn quasi_static(
             }
         }
         if invaded.is_empty() {
-            let displacement = cycles.displacement();
+            let displacement = &cycles.displacement;
             invaded = (0..displacement.elements().len()).map(|e| displacement.phase(e) == Phase::Invading).collect();
         }
     }
@@ -167,7 +167,7 @@ fn quasi_static(
 
 /// The elements of the first invading phase just after the end of the first half cycle.
 fn at_turn(cycles: &Cycles) -> Vec<bool> {
-    let displacement = cycles.displacement();
+    let displacement = &cycles.displacement;
     let holds = |element: usize| match displacement.phase(element) {
         Phase::Defending => true,
         // The start of the next half cycle has filled it.
@@ -236,7 +236,7 @@ fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
             entries.map(|entry| [entry.saturation, config.pressure(invading, entry.applied)]).collect();
         at_saturations(invading, first, &points, false)
     };
-    cycles.outcomes().iter().enumerate().map(of_half).collect()
+    cycles.record.outcomes.iter().enumerate().map(of_half).collect()
 }
 
 /// The pressure at which a half cycle starting at the saturation `first` reaches each saturation. An event reaches all saturations that it

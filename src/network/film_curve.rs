@@ -26,7 +26,7 @@ impl Cycles {
     pub(super) fn set_film_curvature(&mut self, applied: f64) {
         let half = self.half_cycle();
         let Some(films) = &self.films else { return };
-        let to = films.curvature_at(half.towards_wetting(applied));
+        let to = films.curvature_at(half.invading.towards_wetting(applied));
         let points: Vec<CurvePoint> = places_between(films.curvature, to)
             .into_iter()
             .map(|curvature| self.curve_point(curvature, films.area_at(curvature)))
@@ -65,7 +65,7 @@ impl Cycles {
         if self.films.is_none() || !end.is_finite() || self.record.outcomes[self.half_cycle].last.is_some() {
             return;
         }
-        let applied = half.towards_wetting(end);
+        let applied = half.invading.towards_wetting(end);
         self.set_film_curvature(end);
         self.displacement.apply(end);
         self.update_films();

@@ -3,7 +3,7 @@
 //! A phase flows through throats between two regions that it holds; menisci block the flow, and films are neglected. With `network.region`
 //! both phases pass the manifolds.
 
-use super::cycles::{Cycles, FluidPhase, Invasion};
+use super::cycles::{Cycles, FluidPhase};
 use super::displacement::Phase;
 use super::laplacian::FlowError;
 use super::model::{Configuration, Model};
@@ -48,17 +48,17 @@ pub(crate) fn along(model: &Model, axis: usize) -> f64 {
     *model.config.derived.permeabilities[axis].get_or_init(|| find().unwrap_or(f64::NAN))
 }
 
-/// For each region whether the wetting phase holds most of it after these invasions of the last half cycle, and the saturation.
-fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&Invasion) -> bool) -> (Vec<bool>, f64) {
+/// For each region whether the wetting phase holds most of it after the invasions of the last half cycle up to this displaced share, and the saturation.
+fn wetting_regions(config: &Configuration, cycles: &Cycles, displaced: f64) -> (Vec<bool>, f64) {
     let invading = cycles.half_cycle().invading;
     let regions = config.network.regions.len();
     let (mut wetting, mut all) = (vec![0.0; regions], vec![0.0; regions]);
     let counted = &cycles.counted;
     let mut counted_wetting = 0.0;
-    for (index, element) in cycles.displacement().elements().iter().enumerate() {
+    for (index, element) in cycles.displacement.elements().iter().enumerate() {
         let is_invaded = match &cycles.record.invasions[index] {
-            Some(invasion) => has_come(invasion),
-            None => cycles.displacement().phase(index) == Phase::Invading,
+            Some(invasion) => invasion.displaced <= displaced,
+            None => cycles.displacement.phase(index) == Phase::Invading,
         };
         all[element.region] += element.area;
         if is_invaded == (invading == FluidPhase::Wetting) {
@@ -75,19 +75,27 @@ fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&I
 
 /// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, k_r of wetting and non-wetting phase.
 pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
-    let Some(cycles) = model.cycles.as_ref() else { return Vec::new() };
+    let config = &model.config;
+    let drive = config.inlet.and_then(|inlet| drive(config, inlet / 2));
+    let (Some(cycles), Some(drive)) = (model.cycles.as_ref(), drive) else { return Vec::new() };
+    let whole = along(model, config.inlet.unwrap_or_default() / 2);
+    if !(whole > 0.0) {
+        return Vec::new();
+    }
     let displaced = cycles.record.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     // The initial filling counts as displaced; before it, nothing is.
     let at = |share: &f64| if *share > 0.0 { share * displaced } else { -1.0 };
-    let states = states.iter().map(at);
-    along_displacement(model, states.map(|at| move |invasion: &Invasion| invasion.displaced <= at))
-}
-
-/// The same after given numbers of events of the last half cycle; `None` for the state before its initial filling.
-pub(super) fn relative_after(model: &Model, events: &[Option<usize>]) -> Vec<[f64; 3]> {
-    let has_come =
-        |event: Option<usize>| move |invasion: &Invasion| event.is_some_and(|last| invasion.sequence <= last);
-    along_displacement(model, events.iter().map(|&event| has_come(event)))
+    let state = |displaced: f64| {
+        let (wetting, saturation) = wetting_regions(config, cycles, displaced);
+        let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
+        let [wetting, other] = [wetting, other].map(|holds| with_manifolds(config, holds));
+        // The flow of a phase that does not percolate is rounding error.
+        const ROUNDING: f64 = 1.0e-12;
+        let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;
+        let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
+        [saturation, wetting, other]
+    };
+    states.iter().map(at).map(state).collect()
 }
 
 /// With `network.region`, both phases pass the manifolds, which do not count in the saturation.
@@ -97,28 +105,6 @@ fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
         config.network.openings.iter().filter(|opening| config.region.is_some() && ends.contains(&Some(opening.side)));
     openings.for_each(|opening| holds[opening.region] = true);
     holds
-}
-
-/// The same at states given by the invasions that have occurred.
-fn along_displacement<F: Fn(&Invasion) -> bool>(model: &Model, states: impl Iterator<Item = F>) -> Vec<[f64; 3]> {
-    let config = &model.config;
-    let drive = config.inlet.and_then(|inlet| drive(config, inlet / 2));
-    let (Some(cycles), Some(drive)) = (model.cycles.as_ref(), drive) else { return Vec::new() };
-    let whole = along(model, config.inlet.unwrap_or_default() / 2);
-    if !(whole > 0.0) {
-        return Vec::new();
-    }
-    let state = |has_come: F| {
-        let (wetting, saturation) = wetting_regions(config, cycles, has_come);
-        let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
-        let [wetting, other] = [wetting, other].map(|holds| with_manifolds(config, holds));
-        // The flow of a phase that does not percolate is rounding error.
-        const ROUNDING: f64 = 1.0e-12;
-        let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;
-        let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
-        [saturation, wetting, other]
-    };
-    states.map(state).collect()
 }
 
 /// `relative_permeability.csv`; `None` if nothing flows from side to side.

@@ -60,16 +60,3 @@ pub struct HalfCycle {
     /// The corner films, if any.
     pub(crate) films: Option<FilmTerms>,
 }
-
-impl HalfCycle {
-    /// `drainage` or `imbibition`.
-    pub(crate) fn name(&self) -> &'static str {
-        self.invading.process()
-    }
-
-    /// Converts a `curvature` of menisci, positive into the defending phase, to one that is positive into the wetting phase, so that tension
-    /// times it is p_n - p_w.
-    pub(crate) fn towards_wetting(&self, curvature: f64) -> f64 {
-        self.invading.towards_wetting(curvature)
-    }
-}

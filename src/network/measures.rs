@@ -132,7 +132,7 @@ fn replaced(model: &Model) -> Option<Measure> {
 
 fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     let first = &cycles.half_cycles()[0];
-    let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
+    let (pressure, saturation) = cycles.record.outcomes[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
     let reached = if config.outlet.is_none() {
         "there is no outlet"
     } else if saturation.is_nan() {
@@ -142,7 +142,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     } else {
         "at the event by which the invading phase reached the outlet"
     };
-    let (name, space) = (first.name(), config.space());
+    let (name, space) = (first.invading.process(), config.space());
     let invading = cycles.half_cycle().invading;
     let wetting = cycles.saturation();
     let (left, of) = match invading {
@@ -151,7 +151,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     };
     let ending = if cycles.is_done { "at the end" } else { "so far, as the displacement continues" };
     let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0);
-    let applied = largest.map(|entry| entry.applied).chain(cycles.outcomes()[0].last);
+    let applied = largest.map(|entry| entry.applied).chain(cycles.record.outcomes[0].last);
     let largest = applied.map(|applied| config.curvature(first.invading, applied));
     let largest = largest.fold(f64::NAN, |a, b| if a.abs() > b.abs() { a } else { b });
     let mut found = vec![
@@ -210,7 +210,7 @@ fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
 /// The same if saturations change only at events.
 fn work_of_events(config: &Configuration, cycles: &Cycles, last: usize) -> f64 {
     let mut work = 0.0;
-    for (half, outcome) in cycles.outcomes().iter().enumerate().skip(last) {
+    for (half, outcome) in cycles.record.outcomes.iter().enumerate().skip(last) {
         // The initial filling through openings needs no pressure.
         let mut before = outcome.first_saturation[1];
         for entry in cycles.history().iter().filter(|entry| entry.half_cycle == half) {

@@ -29,7 +29,6 @@ mod occupation;
 mod openpnm;
 mod pictures;
 mod region;
-mod reservoir;
 mod setup_error;
 pub mod state;
 mod summary;

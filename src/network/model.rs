@@ -8,7 +8,6 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use crate::case::Side;
-use crate::case::network::Tables;
 use crate::interface::depth::Depth;
 use crate::math::Bounds;
 use crate::snapshot::Lines;
@@ -48,8 +47,6 @@ pub struct Configuration {
     pub region: Option<Bounds>,
     /// What follows from the network alone.
     pub(crate) derived: Arc<Derived>,
-    /// Saturation functions to write.
-    pub(crate) tables: Tables,
 }
 
 impl Configuration {
@@ -116,7 +113,8 @@ impl Model {
         let conditions = entry.as_ref()?;
         let throats = network.throats.len();
         let find = || {
-            let known = self.cycles.as_ref().map(Cycles::displacement).filter(|it| it.events() == conditions.events);
+            let known =
+                self.cycles.as_ref().map(|cycles| &cycles.displacement).filter(|it| it.events() == conditions.events);
             let new = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(conditions, throats);
             known.map_or_else(new, |displacement| displacement.entry_curvatures(conditions, throats))
         };

@@ -61,7 +61,7 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
         ("capillary pressure p_n - p_w in Pa", 1.0)
     };
     let mut traces: Vec<Trace> = Vec::new();
-    for (index, outcome) in cycles.outcomes().iter().enumerate() {
+    for (index, outcome) in cycles.record.outcomes.iter().enumerate() {
         let name = process_name(cycles, index);
         let last = traces.last().and_then(|trace| trace.points.last().copied());
         if cycles.has_films() {
@@ -107,7 +107,7 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
 /// Primary drainage, imbibition, secondary drainage and so on in a cycle; for a single half cycle, the process alone.
 fn process_name(cycles: &Cycles, index: usize) -> String {
     const ORDERS: [&str; 2] = ["primary", "secondary"];
-    let (process, number) = (cycles.half_cycles()[index].name(), index / 2);
+    let (process, number) = (cycles.half_cycles()[index].invading.process(), index / 2);
     match ORDERS.get(number) {
         _ if cycles.half_cycles().len() == 1 => process.to_owned(),
         Some(_) if cycles.half_cycles().len() == 2 && index == 1 => process.to_owned(),

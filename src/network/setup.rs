@@ -127,7 +127,6 @@ fn assemble(
         sides: wanted.sides.each(),
         region: wanted.region.map(Region::bounds),
         derived: if network.depth == ground.network.depth { Arc::clone(&ground.derived) } else { Arc::default() },
-        tables: wanted.tables,
     };
     let counted = |displacement: &Displacement| match config.region {
         Some(region) => Counted::within(displacement, region, config.periods()),

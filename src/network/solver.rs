@@ -10,7 +10,7 @@ use super::displacement::EventKind;
 use super::measures::Costly;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use super::{flow, layers, measures, openpnm, pictures, reservoir, state, summary, tables, warnings};
+use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
 use crate::diagram::Diagram;
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
 use crate::solver::{
@@ -158,7 +158,6 @@ impl Solver for NetworkSolver {
         results.tables.extend(cycles.map(|cycles| tables::events(config, cycles)));
         results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(config, cycles)));
         results.documents.extend(state::documents(&self.model));
-        results.documents.extend(reservoir::documents(&self.model));
         results.tables.extend(flow::table(&self.model));
         results
     }
@@ -188,7 +187,7 @@ impl Solver for NetworkSolver {
         // Upper bound: each event of a half cycle fills one element, or closes or opens a throat.
         Some(self.cycles().map_or(0.0, |cycles| {
             let throats = if cycles.has_films() { self.model.config.network.throats.len() } else { 0 };
-            let events = (cycles.displacement().elements().len() + throats) * cycles.half_cycles().len();
+            let events = (cycles.displacement.elements().len() + throats) * cycles.half_cycles().len();
             (events as f64 - cycles.steps as f64).max(0.0)
         }))
     }

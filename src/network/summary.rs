@@ -178,14 +178,14 @@ pub(crate) fn network_json(model: &Model) -> Document {
 }
 
 fn half_cycles(cycles: &Cycles) -> Vec<HalfCycleDescription<'_>> {
-    let outcomes = cycles.outcomes();
+    let outcomes = &cycles.record.outcomes;
     let after = |index: usize| outcomes.get(index + 1).map_or(cycles.saturation(), |next| next.first_saturation[0]);
     outcomes
         .iter()
         .zip(cycles.half_cycles())
         .enumerate()
         .map(|(index, (outcome, half))| HalfCycleDescription {
-            process: half.name(),
+            process: half.invading.process(),
             invading: half.invading.name(),
             events: outcome.events,
             saturation_before: outcome.first_saturation[0],

@@ -239,7 +239,7 @@ pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
     let number_of = numbers_of_throats(config);
     let rows = rows(cycles);
     let all = || rows.iter();
-    let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
+    let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].invading.process();
     let pressures = |of: fn(&Entry) -> f64| {
         all().map(move |row| {
             let pressure = |entry| config.pressure(cycles.half_cycles()[row.half_cycle].invading, of(entry));
@@ -300,13 +300,13 @@ fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
         };
         std::iter::once(first).chain(events.zip(1..).map(row))
     };
-    cycles.outcomes().iter().enumerate().flat_map(of_half).collect()
+    cycles.record.outcomes.iter().enumerate().flat_map(of_half).collect()
 }
 
 /// `capillary_pressure.csv`: the curve with the films at every pressure; `None` without films.
 pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Table> {
     let (curve, tension) = (&cycles.record.curve, config.tension?);
-    let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].name();
+    let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].invading.process();
     cycles.has_films().then(|| Table {
         name: "capillary_pressure",
         columns: vec![

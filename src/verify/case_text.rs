@@ -4,11 +4,9 @@ use std::fmt::Write;
 
 use super::fluids::Fluids;
 use super::subdomain::Subdomain;
-use super::whole_pore::WholePore;
 use crate::case::Fluid;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
 use crate::network::cycles::FluidPhase as Phase;
-use crate::network::displacement::EventKind;
 
 /// Reynolds number ρQ/μ of the flow with which conductances are measured.
 const REYNOLDS: f64 = 0.01;
@@ -18,18 +16,6 @@ const CAPILLARY_TIMES: f64 = 12.0;
 const VISCOUS_TIMES: f64 = 6.0;
 /// End of a single-phase run in units of density · height²/viscosity; the slowest mode between plates decays in a tenth of it.
 const FLOW_TIMES: f64 = 1.0;
-/// Height of the pressure steps up to an overlap over tension/width, per spacing over width.
-const RISE_PER_SPACING: f64 = 0.16;
-/// Number of steps below the overlap, and of those above it.
-const OVERLAP_STEPS: f64 = 5.0;
-/// Duration of such a step in units of √(density · length³/tension) of the box or viscous times of the throat, whichever is longer.
-const OVERLAP_TIMES: f64 = 3.0;
-/// Height of the steps up to a touch over tension/width: fewer and longer steps, as the defending phase between meniscus and wall drains slowly.
-const TOUCH_RISE: f64 = 0.02;
-/// As of an overlap.
-const TOUCH_STEPS: f64 = 2.0;
-/// As of an overlap.
-const TOUCH_TIMES: f64 = 9.0;
 /// Latest end of a run with a meniscus in relaxation times by the friction of floor and lid.
 const FRICTION_TIMES: f64 = 6.0;
 /// Largest relative deviation of the entry pressure from the formula that the case expects.
@@ -161,83 +147,4 @@ pub(crate) fn flow(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> Str
 /// The flow rate in m²/s of the conductance.
 pub(crate) fn flow_rate(fluid: Fluid) -> f64 {
     REYNOLDS * fluid.viscosity / fluid.density
-}
-
-/// Inlet pressures of a whole pore, rising in steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Steps {
-    /// Curvature in 1/m of the menisci at the first step.
-    pub(crate) first: f64,
-    /// Height of a step in 1/m.
-    pub(crate) rise: f64,
-    /// Number of steps.
-    pub(crate) count: f64,
-    /// Duration of each step in capillary or viscous times.
-    pub(crate) times: f64,
-}
-
-impl Steps {
-    /// Steps at a spacing (m) from below to above an event, which lies midway between two of them; `None` if the branch before the event is
-    /// shorter than one step.
-    pub(crate) fn of(subdomain: &WholePore, spacing: f64) -> Option<Self> {
-        let scale = 1.0 / subdomain.width;
-        let (rise, steps, times) = match subdomain.kind {
-            EventKind::Touch => (TOUCH_RISE * scale, TOUCH_STEPS, TOUCH_TIMES),
-            _ => (RISE_PER_SPACING * scale * scale * spacing, OVERLAP_STEPS, OVERLAP_TIMES),
-        };
-        let below = ((subdomain.curvature - subdomain.lowest) / rise + 0.5).floor().min(steps);
-        let first = subdomain.curvature + (0.5 - below) * rise;
-        (below >= 1.0).then_some(Self { first, rise, count: below + steps, times })
-    }
-}
-
-/// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci jump. `None` if there are no menisci below the event.
-pub(crate) fn pore(subdomain: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
-    let (width, tension, frame) = (subdomain.width, fluids.tension, &subdomain.frame);
-    let spacing = subdomain.narrowest / f64::from(named.across);
-    let steps = Steps::of(subdomain, spacing)?;
-    let behind = subdomain.invading_shape(steps.first)?;
-    let [wetting, other] = fluids.of(width);
-    let (density, viscosity) = (wetting.density.max(other.density), wetting.viscosity.max(other.viscosity));
-    let size = crate::math::Vec2::from(subdomain.geometry.max) - crate::math::Vec2::from(subdomain.geometry.min);
-    let capillary = (density * size.min().powi(3) / tension).sqrt();
-    let friction = fluids.friction_time(size.min(), width);
-    let hold = steps.times * capillary.max(density * width * width / viscosity).max(friction);
-    let (first, rise) = fluids.steps(subdomain.curvature, steps.first, steps.rise);
-    let background = fluids.invading.other().name();
-    let (what, kind) = match subdomain.kind {
-        EventKind::Overlap => ("Two menisci meet on the wall between them", "overlap"),
-        _ => ("A meniscus touches a third wall", "touch"),
-    };
-    let mut text = format!(
-        "# {what}: the pressure of the invading phase rises in steps from below the event to above it.\n# Event {} of {}, at ({:.4e}, {:.4e}) m; x is \
-         the flow direction of the invading phase, {:.2} degrees counter-clockwise from that of the network.\n# The formula: {:.4} Pa.\nformat = 1\n\
-         title = \"Event {}: {kind}, {} spacings across\"\n\n",
-        named.number,
-        named.network,
-        frame.middle.x,
-        frame.middle.y,
-        frame.angle.to_degrees(),
-        fluids.pressure(subdomain.curvature),
-        named.number,
-        named.across
-    );
-    text += &shapes(&subdomain.geometry, fluids);
-    let _ = write!(text, "\n[sph]\nspacing = {spacing:e} # m\n\n");
-    text += &phase("wetting", wetting);
-    text += &phase("non-wetting", other);
-    let _ = write!(
-        text,
-        "[sph.interface]\ntension = {tension:e} # N/m\n\n{}[sph.sides]\nleft = \"inlet\"\nright = \"outlet\" # at 0 Pa\n\n[sph.sides.open.left]\npressure = {:e} # Pa\n\
-         pressure-steps = {{ rise = {:e}, every-time = {hold:e} }} # Pa, s\n\n\
-         [sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arcs are those of the menisci\n\
-         [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n\
-         [time]\nend = {:e} # s\n\n[output.vtk]\nevery-time = {hold:e} # s\n",
-        fluids.wetting(subdomain.angle),
-        first,
-        rise,
-        polygon(&behind),
-        hold * steps.count
-    );
-    Some(text)
 }

@@ -207,18 +207,14 @@ fn distance(arc: &Curve, walls: &[Curve]) -> f64 {
 
 /// Throats at random, each at most once.
 fn random(subject: &Subject, count: usize, seed: u64) -> Vec<Chosen> {
-    let numbers = drawn((0..subject.kept().len()).collect(), count, seed);
-    numbers.into_iter().map(|number| chosen(subject, number, "random")).collect()
-}
-
-/// `count` of the given numbers at random, each at most once.
-pub(super) fn drawn(mut left: Vec<usize>, count: usize, seed: u64) -> Vec<usize> {
+    let mut left: Vec<usize> = (0..subject.kept().len()).collect();
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
     let mut generator = ChaCha8Rng::from_seed(bytes);
     let mut found = Vec::new();
     while found.len() < count && !left.is_empty() {
-        found.push(left.swap_remove((generator.next_u64() % left.len() as u64) as usize));
+        let number = left.swap_remove((generator.next_u64() % left.len() as u64) as usize);
+        found.push(chosen(subject, number, "random"));
     }
     found
 }

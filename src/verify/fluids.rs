@@ -55,16 +55,6 @@ impl Fluids {
         self.chip.map_or(curvature, |chip| turned(chip.depth.plane(turned(curvature))))
     }
 
-    /// First pressure and step height in Pa for steps through a `curvature` of menisci, from steps in curvature (1/m).
-    pub(crate) fn steps(&self, curvature: f64, first: f64, rise: f64) -> (f64, f64) {
-        if self.chip.is_none() {
-            return (self.tension * first, self.tension * rise);
-        }
-        // The pressure rises with the curvature, linearly within a step.
-        let of_rise = self.pressure(curvature + 0.5 * rise) - self.pressure(curvature - 0.5 * rise);
-        (self.pressure(curvature) + (first - curvature) / rise * of_rise, of_rise)
-    }
-
     /// Distance between floor and lid in m; 1 in the plane, where rates are per meter of depth.
     pub(crate) fn thickness(&self) -> f64 {
         self.chip.map_or(1.0, |chip| chip.depth.distance())

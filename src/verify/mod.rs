@@ -1,14 +1,12 @@
-//! Verification of a network by direct simulation of subdomains: selected throats, and pores where a meniscus touches a third wall or two
-//! menisci meet, run as an ordinary study of `[sph]` cases and are compared with the formula of the network.
+//! Verification of a network by direct simulation of subdomains: selected throats run as an ordinary study of `[sph]` cases and are compared
+//! with the formula of the network.
 //!
-//! [`choose`] selects throats and [`events`] touches and overlaps; [`subdomain`] and [`whole_pore`] construct the box of each, [`case_text`]
-//! its cases; [`plan`] writes them with their study, which [`crate::study`] runs; [`results`] and [`event_results`] evaluate the runs, and
-//! [`report`] writes the tables, the page, and the file of measured values that a network can read.
+//! [`choose`] selects throats; [`subdomain`] constructs the box of each, [`case_text`] its cases; [`plan`] writes them with their study,
+//! which [`crate::study`] runs; [`results`] evaluates the runs, and [`report`] writes the tables, the page, and the file of measured values
+//! that a network can read.
 
 pub mod case_text;
 pub mod choose;
-pub(crate) mod event_results;
-pub mod events;
 pub mod fluids;
 mod page;
 pub mod plan;
@@ -17,4 +15,3 @@ pub(crate) mod results;
 pub mod subdomain;
 pub mod subject;
 mod wall_path;
-pub mod whole_pore;

@@ -2,43 +2,32 @@
 
 use std::fmt::Write;
 
-use super::event_results::EventRow;
 use super::plan::RUNS;
 use super::results::Row;
 use crate::io::html::{self, escaped};
 use crate::study::table::Table;
 
-/// The page of throats and events with their tables, as HTML.
-pub(crate) fn page(title: &str, (table, rows): (&Table, &[Row]), events: Option<(&Table, &[EventRow])>) -> String {
+/// The page of throats with their table, as HTML.
+pub(crate) fn page(title: &str, table: &Table, rows: &[Row]) -> String {
     let mut html = format!(
         "<h1>{}</h1>\n<p>Formula of the network and direct simulation of the same throats. The same with all digits: \
          <a href=\"verify.csv\">verify.csv</a>.</p>\n<div class=\"wide\">\n{}</div>\n",
         escaped(title),
         table.html()
     );
-    if let Some((table, _)) = events {
-        html += "<p>Touches and overlaps, with all digits in <a href=\"verify_events.csv\">verify_events.csv</a>.</p>\n<div class=\"wide\">\n";
-        html += &table.html();
-        html += "</div>\n";
-    }
-    for row in rows {
-        let chosen = &row.planned.chosen;
-        html += &pictures(&format!("Throat {}", chosen.number), &chosen.reason, &row.status.to_string(), &row.runs);
-    }
-    for row in events.map_or(&[][..], |(_, rows)| rows) {
-        let planned = row.planned;
-        html += &pictures(&format!("Event {}", planned.number), &planned.reason, &row.status.to_string(), &row.runs);
-    }
+    rows.iter().for_each(|row| html += &pictures(row));
     html::page(title, &html)
 }
 
-fn pictures(head: &str, reason: &str, status: &str, runs: &[String]) -> String {
+fn pictures(row: &Row) -> String {
+    let chosen = &row.planned.chosen;
     let mut html = format!(
-        "<h2>{head}</h2>\n<p>Chosen: {}. {}.</p>\n<div class=\"pictures\">\n",
-        escaped(reason),
-        escaped(status)
+        "<h2>Throat {}</h2>\n<p>Chosen: {}. {}.</p>\n<div class=\"pictures\">\n",
+        chosen.number,
+        escaped(&chosen.reason),
+        escaped(&row.status.to_string())
     );
-    for run in runs {
+    for run in &row.runs {
         let run = escaped(run);
         let caption = run.trim_start_matches("cut-out=").trim_end_matches(".toml");
         let picture = format!("{RUNS}/runs/{run}/picture.png");

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use super::case_text::{self, Named};
 use super::choose::{Chosen, touches_first};
-use super::events::PlannedEvent;
 use super::fluids::Fluids;
 use super::subdomain::{Impossible, Subdomain};
 use super::subject::Subject;
@@ -75,16 +74,13 @@ pub(crate) enum Kind {
     Entry,
     /// The conductance.
     Flow,
-    /// A touch or an overlap.
-    Event,
 }
 
-/// The name of a case of a throat or an event without extension.
+/// The name of a case of a throat without extension.
 pub(crate) fn case_name(number: usize, kind: Kind, across: u32) -> String {
     match kind {
         Kind::Entry => format!("throat-{number}-entry-{across}"),
         Kind::Flow => format!("throat-{number}-flow-{across}"),
-        Kind::Event => format!("event-{number}-{across}"),
     }
 }
 
@@ -97,8 +93,6 @@ pub struct Written {
     pub kept: Vec<PathBuf>,
     /// Throats, by index in the plan, whose case is invalid, and why.
     pub refused: Vec<(usize, String)>,
-    /// The same for events.
-    pub refused_events: Vec<(usize, String)>,
 }
 
 /// Why a plan was not written.
@@ -112,13 +106,11 @@ pub enum PlanError {
     Changed(PathBuf),
 }
 
-/// The plan of one network: throats and events.
+/// The plan of one network.
 #[derive(Debug, Clone, Copy)]
 pub struct Plan<'a> {
     /// The throats.
     pub throats: &'a [Planned],
-    /// The events.
-    pub events: &'a [PlannedEvent],
     /// The fluids of all cases.
     pub fluids: &'a Fluids,
     /// Spacings across a throat.
@@ -138,21 +130,11 @@ impl Plan<'_> {
             let named = Named { number: one.chosen.number, network: self.network, across };
             let text = match kind {
                 Kind::Flow => case_text::flow(subdomain, self.fluids, &named),
-                _ => case_text::entry(subdomain, self.fluids, &named),
+                Kind::Entry => case_text::entry(subdomain, self.fluids, &named),
             };
             (case_name(named.number, kind, across), text)
         };
         cases.map(text).collect()
-    }
-
-    /// Name and text of each case of an event; fewer than spacings if there are no menisci below the event.
-    fn of_event(&self, one: &PlannedEvent) -> Vec<(String, String)> {
-        let Ok(subdomain) = &one.subdomain else { return Vec::new() };
-        let text = |&across: &u32| {
-            let named = Named { number: one.number, network: self.network, across };
-            Some((case_name(one.number, Kind::Event, across), case_text::pore(subdomain, self.fluids, &named)?))
-        };
-        self.spacings.iter().filter_map(text).collect()
     }
 }
 
@@ -163,12 +145,9 @@ pub fn write(folder: &Path, plan: &Plan) -> Result<Written, PlanError> {
     let digests_path = cases.join(DIGESTS);
     let digests = std::fs::read(&digests_path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
     let mut writer = CaseWriter { cases, digests: digests.unwrap_or_default(), names: Vec::new(), kept: Vec::new() };
-    let (mut refused, mut refused_events) = (Vec::new(), Vec::new());
+    let mut refused = Vec::new();
     for (index, one) in plan.throats.iter().enumerate() {
         refused.extend(writer.write(plan.of_throat(one))?.map(|why| (index, why)));
-    }
-    for (index, one) in plan.events.iter().enumerate() {
-        refused_events.extend(writer.write(plan.of_event(one))?.map(|why| (index, why)));
     }
     let CaseWriter { digests, names, kept, .. } = writer;
     // Writing names and digests cannot fail.
@@ -178,7 +157,7 @@ pub fn write(folder: &Path, plan: &Plan) -> Result<Written, PlanError> {
     if !is_empty {
         atomic::write(&study, study_text(&names, plan.network).as_bytes())?;
     }
-    Ok(Written { study: (!is_empty).then_some(study), kept, refused, refused_events })
+    Ok(Written { study: (!is_empty).then_some(study), kept, refused })
 }
 
 /// Writes cases and records their digests.
@@ -258,12 +237,11 @@ fn study_text(names: &[String], network: &str) -> String {
 /// The measures of the cases.
 fn measures(names: &[String]) -> impl Iterator<Item = &'static str> {
     let has = |what: &str| names.iter().any(|name| name.contains(what));
-    let (has_entry, has_flow, has_event) = (has("-entry-"), has("-flow-"), has("event-"));
+    let (has_entry, has_flow) = (has("-entry-"), has("-flow-"));
     let all = [
         ("entry-pressure-Pa", has_entry),
-        ("capillary-pressure-Pa", has_event),
-        ("contact-angle-deg", has_entry || has_event),
-        ("inflow-m2-per-s", has_flow || has_event),
+        ("contact-angle-deg", has_entry),
+        ("inflow-m2-per-s", has_flow),
         ("driving-pressure-drop-Pa", has_flow),
         ("area-drift", true),
         ("unknowns", true),

@@ -2,13 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::event_results::EventRow;
 use super::fluids::Fluids;
 use super::page::page;
 use super::results::{Direct, Row, Status};
 use super::subdomain::Subdomain;
 use super::subject::Subject;
-use super::whole_pore::WholePore;
 use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
 use crate::network::graph::Throat;
@@ -19,8 +17,6 @@ use crate::study::table::Table;
 pub(crate) struct Written {
     /// The table of throats for the terminal.
     pub table: Table,
-    /// The table of events; `None` if none was selected.
-    pub events: Option<Table>,
     /// The page.
     pub page: PathBuf,
     /// Number of throats that use the measured pressure.
@@ -29,12 +25,11 @@ pub(crate) struct Written {
     pub measured: PathBuf,
 }
 
-/// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`, and for events `verify_events.csv`.
+/// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`.
 pub(crate) fn write(
     folder: &Path,
     subject: &Subject,
     rows: &[Row],
-    events: &[EventRow],
     (spacings, fluids): (&[u32], &Fluids),
     title: &str,
 ) -> Result<Written, FileError> {
@@ -47,13 +42,9 @@ pub(crate) fn write(
     // Writing numbers and text cannot fail.
     let text = serde_json::to_vec_pretty(&measured).unwrap_or_default();
     atomic::write(&path("measured.json"), &text)?;
-    let of_events = (!events.is_empty()).then(|| short_events(events));
-    if of_events.is_some() {
-        atomic::write(&path("verify_events.csv"), &full_events(events, spacings).csv()?)?;
-    }
-    let html = page(title, (&table, rows), of_events.as_ref().map(|table| (table, events)));
+    let html = page(title, &table, rows);
     atomic::write(&path("verify.html"), html.as_bytes())?;
-    Ok(Written { table, events: of_events, page: path("verify.html"), replaced, measured: path("measured.json") })
+    Ok(Written { table, page: path("verify.html"), replaced, measured: path("measured.json") })
 }
 
 fn measured(subject: &Subject, rows: &[Row], fluids: &Fluids) -> Measured {
@@ -139,38 +130,6 @@ fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) 
     )
 }
 
-/// `verify_events.csv`, in full precision.
-fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
-    let across = joined(spacings);
-    let subdomain =
-        |row: &EventRow, value: fn(&WholePore) -> f64| exact(row.planned.subdomain.as_ref().ok().map(value));
-    Table::of(
-        rows,
-        &[
-            ("event", &|row| row.planned.number.to_string()),
-            ("kind", &|row| row.planned.kind.name().to_owned()),
-            ("throat", &|row| row.planned.throat.map_or(String::new(), |throat| throat.to_string())),
-            ("x_m", &|row| subdomain(row, |subdomain| subdomain.frame.middle.x)),
-            ("y_m", &|row| subdomain(row, |subdomain| subdomain.frame.middle.y)),
-            ("w_m", &|row| subdomain(row, |subdomain| subdomain.width)),
-            ("theta_deg", &|row| subdomain(row, |subdomain| subdomain.angle.to_degrees())),
-            ("pressure_formula_Pa", &|row| exact(Some(row.formula))),
-            ("pressure_direct_Pa", &|row| exact(row.direct.map(|direct| direct.value))),
-            ("pressure_direct_error_Pa", &|row| exact(row.direct.and_then(|direct| direct.error))),
-            ("difference_Pa", &|row| exact(row.difference())),
-            ("difference_over_tension_per_width_percent", &|row| exact(percent(row.relative_difference()))),
-            ("spacings_across", &|_| across.clone()),
-            ("particles", &|row| row.particles.map_or(String::new(), |count| format!("{count}"))),
-            ("wall_time_s", &|row| exact(Some(row.wall_time))),
-            ("status", &|row| row.status.to_string()),
-            ("walls_left_out", &|row| {
-                row.planned.subdomain.as_ref().map_or(String::new(), |subdomain| subdomain.left_out.to_string())
-            }),
-            ("chosen", &|row| row.planned.reason.clone()),
-        ],
-    )
-}
-
 const MICROMETERS: f64 = 1e6;
 
 fn number(value: Option<f64>, digits: usize) -> String {
@@ -186,30 +145,6 @@ fn with_error(direct: Option<Direct>, scale: &dyn Fn(f64) -> String) -> String {
         Some(Direct { value, error: None }) => scale(value),
         None => "–".to_owned(),
     }
-}
-
-/// The table of events for the terminal.
-fn short_events(rows: &[EventRow]) -> Table {
-    let subdomain = |row: &EventRow, value: fn(&WholePore) -> f64, digits: usize| {
-        number(row.planned.subdomain.as_ref().ok().map(value), digits)
-    };
-    Table::of(
-        rows,
-        &[
-            ("event", &|row| row.planned.number.to_string()),
-            ("kind", &|row| row.planned.kind.name().to_owned()),
-            ("throat", &|row| row.planned.throat.map_or("–".to_owned(), |throat| throat.to_string())),
-            ("width in µm", &|row| subdomain(row, |subdomain| MICROMETERS * subdomain.width, 2)),
-            ("angle in deg", &|row| subdomain(row, |subdomain| subdomain.angle.to_degrees(), 1)),
-            ("pressure in Pa: formula", &|row| number(Some(row.formula), 1)),
-            ("direct", &|row| with_error(row.direct, &|value| format!("{value:.1}"))),
-            ("difference in Pa", &|row| number(row.difference(), 1)),
-            ("in % of tension/width", &|row| number(percent(row.relative_difference()), 1)),
-            ("particles", &|row| number(row.particles, 0)),
-            ("time in s", &|row| number(Some(row.wall_time), 1)),
-            ("status", &|row| row.status.to_string()),
-        ],
-    )
 }
 
 /// The table of throats for the terminal.

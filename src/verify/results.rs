@@ -92,13 +92,13 @@ impl Row<'_> {
     }
 }
 
-/// A run of one throat or event.
-pub(super) struct Run<'a> {
-    pub(super) result: &'a RunResult,
+/// A run of one throat.
+struct Run<'a> {
+    result: &'a RunResult,
 }
 
 impl Run<'_> {
-    pub(super) fn failed(&self) -> Option<String> {
+    fn failed(&self) -> Option<String> {
         match &self.result.state {
             RunState::Failed(report) => {
                 let why = report.error.clone().unwrap_or_default();
@@ -108,17 +108,17 @@ impl Run<'_> {
         }
     }
 
-    pub(super) fn is_complete(&self) -> bool {
+    fn is_complete(&self) -> bool {
         self.result.state.report().is_some()
     }
 
-    pub(super) fn number(&self, name: &str) -> Option<f64> {
+    fn number(&self, name: &str) -> Option<f64> {
         self.result.number(name).filter(|value| value.is_finite())
     }
 }
 
-/// The runs of a throat or an event, from coarse to fine.
-pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: &'a [RunResult]) -> Vec<Run<'a>> {
+/// The runs of a throat, from coarse to fine.
+fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: &'a [RunResult]) -> Vec<Run<'a>> {
     let mut across: Vec<u32> = spacings.to_vec();
     across.sort_unstable();
     let found = across.into_iter().filter_map(|across| {
@@ -129,7 +129,7 @@ pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: 
 }
 
 /// Why runs have no value yet; `None` if all are complete.
-pub(super) fn unfinished(runs: &[Run]) -> Option<Status> {
+fn unfinished(runs: &[Run]) -> Option<Status> {
     let open = || (runs.is_empty() || !runs.iter().all(Run::is_complete)).then_some(Status::Open);
     runs.iter().find_map(Run::failed).map(Status::Failed).or_else(open)
 }

@@ -48,24 +48,6 @@ pub enum Impossible {
     /// An invalid case.
     #[error("its case is refused: {0}")]
     Case(String),
-    /// A whole pore whose walls are not discs.
-    #[error("its walls are not three discs")]
-    NoDisc,
-    /// Menisci that merged earlier.
-    #[error("its menisci merged at a lower pressure")]
-    Waited,
-    /// No branch before the event.
-    #[error("its menisci meet or touch as soon as they form in their throats")]
-    AtOnce,
-    /// A third body beside another one across the axis.
-    #[error("its third body does not lie between the other two")]
-    Beside,
-    /// A narrow gap.
-    #[error("a gap between its bodies is narrower than half of the throat")]
-    Narrow,
-    /// Not an event of this kind.
-    #[error("it is a burst, which is verified in its throat")]
-    Burst,
     /// Corner films of another angle.
     #[error("its walls have a contact angle other than that of the corner films of the network")]
     Films,
@@ -347,7 +329,7 @@ fn until(path: &[Curve], point: Vec2) -> Vec<Curve> {
 const LONGEST_ARC: f64 = 2.5;
 
 /// A closed path as a polygon; curves of zero length are left out, and coordinates within rounding of an axis are set on it.
-pub(super) fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
+fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
     let tidy = |x: f64| if x.abs() < ROUNDING * ROUNDING * width { 0.0 } else { x };
     let mut outer = Vec::new();
     for curve in path.iter().filter(|curve| curve.length() > ROUNDING * width) {

@@ -7,7 +7,7 @@ use crate::case::{Case, Fluid, Model, on_plates};
 use crate::interface::depth::Depth;
 use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, FluidPhase};
-use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};
+use crate::network::displacement::{Conditions, Displacement, EventKind};
 use crate::network::graph::Throat;
 use crate::network::setup::{SetupError, build_quasi_static};
 use crate::network::solver::NetworkSolver;
@@ -48,8 +48,6 @@ pub struct Subject {
     pub to_breakthrough: Option<(Vec<Entry>, f64)>,
     /// Throats through which menisci overlapped in the first half cycle.
     pub overlapped: Vec<usize>,
-    /// Events of the first half cycle.
-    pub events: Vec<Event>,
     fresh: Displacement,
 }
 
@@ -72,8 +70,6 @@ impl Subject {
         let config = solver.config();
         let fresh = Displacement::new(&config.network, &config.pores, conditions.clone());
         let overlaps = history.0.iter().filter(|entry| entry.kind == EventKind::Overlap);
-        let displacement = solver.cycles().map(|cycles| cycles.displacement().clone());
-        let events = displacement.into_iter().flatten().take(history.0.len()).collect();
         Ok(Self {
             tension: interface.tension,
             fluids: [wanted.wetting, wanted.non_wetting],
@@ -81,7 +77,6 @@ impl Subject {
             invading,
             conditions,
             overlapped: overlaps.filter_map(|entry| entry.throat).collect(),
-            events,
             to_breakthrough: history.1.map(|(count, applied)| (history.0[..count].to_vec(), applied)),
             fresh,
             solver,
@@ -115,16 +110,6 @@ impl Subject {
         self.chip.is_none_or(|Chip { plates, depth }| Depth::new(depth.distance(), angle, plates).has_films_of(&depth))
     }
 
-    /// The menisci of an event of the first half cycle.
-    pub(crate) fn scene(&self, event: &Event) -> Scene {
-        self.fresh.scene(event.involved)
-    }
-
-    /// Area in m² of the elements that an event fills.
-    pub(crate) fn filled_area(&self, event: &Event) -> f64 {
-        event.elements.iter().map(|&element| self.fresh.elements()[element].area).sum()
-    }
-
     /// Hash of the geometry, as in `network.json`.
     pub(crate) fn geometry_hash(&self) -> &str {
         &self.solver.config().geometry_hash
@@ -134,11 +119,11 @@ impl Subject {
 /// The events of the first half cycle, their number up to breakthrough, and the applied curvature in 1/m then.
 fn first_half_cycle(cycles: &Cycles) -> (Vec<Entry>, Option<(usize, f64)>) {
     let mut cycles = cycles.clone();
-    let sign = cycles.half_cycle().towards_wetting(1.0);
+    let sign = cycles.half_cycle().invading.towards_wetting(1.0);
     let mut breakthrough = None;
     while cycles.half_cycle_index() == 0 && cycles.advance().is_some() {
         let events = cycles.history().iter().filter(|entry| entry.half_cycle == 0).count();
-        let reached = cycles.outcomes().first().and_then(|outcome| outcome.breakthrough);
+        let reached = cycles.record.outcomes.first().and_then(|outcome| outcome.breakthrough);
         if let (None, Some((applied, _))) = (breakthrough, reached) {
             breakthrough = Some((events, sign * applied));
         }

@@ -1,38 +1,15 @@
-//! Throats by direct simulation, from the command to its table: rest, entry pressure and conductance, in the plane and in a chip, and values that a network
+//! Throats by direct simulation, from the command to its table: entry pressure and conductance, in the plane and in a chip, and values that a network
 //! takes up.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::support::program::{assert_code, meniscus, stderr, stdout};
-use crate::verify::{AROUND_THREE, DISCS, THREE, case};
+use crate::verify::{DISCS, case};
 use meniscus::case::load;
 use meniscus::input::Overrides;
-use meniscus::study;
 use meniscus::verify::choose::{Choice, choose};
 use meniscus::verify::subject::Subject;
-
-#[test]
-fn the_menisci_of_a_whole_pore_rest_at_its_first_pressure() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = folder.path();
-    std::fs::write(at.join("three.toml"), case(THREE, 110.0, "")).unwrap();
-    let [min, max] = AROUND_THREE;
-    let arguments =
-        ["network", "verify", "three.toml", "--events", "overlap:1", "--spacings", "6", "--only-write", "--out", "out"];
-    let output = meniscus(at, &[&arguments[..], &["--set", min, "--set", max]].concat());
-    assert_code(&output, 0);
-    let study = study::load::load(&at.join("out/verify.toml")).unwrap_or_else(|error| panic!("{}", error.render()));
-    let runs = study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
-    let case = runs[0].run.case.to_string_lossy().into_owned();
-    assert_code(&meniscus(at, &["run", &case, "--set", "time.end=2.0e-4", "--threads", "1", "--out", "run"]), 0);
-    let report: serde_json::Value =
-        serde_json::from_slice(&std::fs::read(at.join("run/report.json")).unwrap()).unwrap();
-    let pressure = report["measures"]["capillary-pressure-Pa"]["value"].as_f64().unwrap();
-    // Below the overlap, where symmetry puts both contacts in the middle of the shared disc, by four and a half steps of 16 Pa.
-    let (formula, scale) = (135.7, 600.0);
-    assert!((pressure - (formula - 72.0)).abs() < 0.02 * scale, "{pressure}");
-}
 
 /// The first row of a table by its heads.
 fn first_row(path: &Path) -> BTreeMap<String, String> {

@@ -3,31 +3,22 @@
 use std::path::Path;
 
 use meniscus::case::load;
-use meniscus::geometry::Geometry;
 use meniscus::input::Overrides;
 use meniscus::math::Vec2;
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, EventKind, Events, Trapping};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
 use meniscus::verify::choose::{Choice, ChoiceError, choose};
-use meniscus::verify::events::{EventChoice, EventError, PlannedEvent, choose_events};
 use meniscus::verify::fluids::Fluids;
 use meniscus::verify::plan::{Plan, Planned, write};
 use meniscus::verify::subdomain::Subdomain;
 use meniscus::verify::subject::Subject;
-use meniscus::verify::whole_pore::WholePore;
 
 /// A random pack between walls.
 const PACK: &str = "{ random-pack = { seed = 3, porosity = 0.6, radius = 1.0e-4, radius-deviation = 0.2, gap = 2.0e-5, \
                     region = [[0.0, 0.0], [1.6e-3, 1.6e-3]] } }";
-/// Discs of 100 µm, 50 µm apart.
-pub(crate) const THREE: &str = "{ disc = { center = [8.0e-4, 8.0e-4], radius = 1.0e-4 } }, { disc = { center = [8.0e-4, 1.05e-3], radius = 1.0e-4 } }, \
-                     { disc = { center = [5.835e-4, 9.25e-4], radius = 1.0e-4 } }";
-
-/// The box around them.
-pub(crate) const AROUND_THREE: [&str; 2] = ["geometry.min=[4.0e-4,8.0e-4]", "geometry.max=[1.0e-3,1.05e-3]"];
 /// Posts, turned and not, a hexagon, and a disc near a wall.
 const EDGES: &str = "{ rectangle = { center = [4.0e-4, 4.0e-4], size = [3.0e-4, 2.0e-4] } }, \
                      { rectangle = { center = [4.2e-4, 8.0e-4], size = [3.0e-4, 3.0e-4], rotation-deg = 27.0 } }, \
@@ -149,7 +140,7 @@ fn cases_and_study_load_and_a_case_changed_by_hand_is_kept() {
         Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading, chip: subject.chip };
     let all = planned(&subject);
     let out = folder.path().join("out");
-    let plan = Plan { throats: &all, events: &[], fluids: &fluids, spacings: &[6, 8], network: "grains.toml" };
+    let plan = Plan { throats: &all, fluids: &fluids, spacings: &[6, 8], network: "grains.toml" };
     let written = write(&out, &plan).unwrap();
     let study = study::load::load(&written.study.unwrap()).unwrap_or_else(|error| panic!("{}", error.render()));
     let runs = study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
@@ -179,11 +170,11 @@ fn no_case_of_a_cut_out_is_refused() {
         let Ok(subject) = Subject::new(&loaded.case) else { continue };
         let fluids =
             Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading, chip: subject.chip };
-        let (all, events) = (planned(&subject), planned_events(&subject));
+        let all = planned(&subject);
         cut += all.iter().filter(|one| one.subdomain.is_ok()).count();
-        let plan = Plan { throats: &all, events: &events, fluids: &fluids, spacings: &[8], network: "grains.toml" };
+        let plan = Plan { throats: &all, fluids: &fluids, spacings: &[8], network: "grains.toml" };
         let written = write(&folder.path().join(number.to_string()), &plan).unwrap();
-        refused.extend(written.refused.into_iter().chain(written.refused_events).map(|(_, why)| (number, why)));
+        refused.extend(written.refused.into_iter().map(|(_, why)| (number, why)));
     }
     println!("{cut} cut-outs");
     assert!(cut > 300 && refused.is_empty(), "{cut}: {refused:?}");
@@ -207,85 +198,6 @@ fn throats_are_chosen_by_what_they_are() {
     assert_eq!(both.iter().map(|one| one.number).collect::<Vec<_>>(), [3, 1, 2]);
     assert!(matches!(choose(&subject, &[Choice::Numbers(vec![9999])], 1), Err(ChoiceError::NoThroat { .. })));
     assert!("random".parse::<Choice>().is_err() && "critical".parse() == Ok(Choice::Critical));
-}
-
-fn planned_events(subject: &Subject) -> Vec<PlannedEvent> {
-    let all = (1..=subject.events.len()).collect();
-    choose_events(subject, &[EventChoice::Numbers(all)], 1).unwrap()
-}
-
-/// Whether a displacement through the cut-out's own network, from left to right, has the event.
-fn has_event(subdomain: &WholePore) -> bool {
-    let geometry = Geometry::new(&subdomain.geometry).unwrap().with_sides([false; 2], [false, false, true, true]);
-    let network = extract(&geometry, [true, true, false, false]).unwrap();
-    let conditions = Conditions {
-        angle: vec![subdomain.angle; subdomain.geometry.shapes.len() + 4],
-        inlet: [true, false, false, false],
-        outlet: [false, true, false, false],
-        trapping: Trapping::None,
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
-    };
-    let is_it = |curvature: f64| (curvature - subdomain.curvature).abs() < 1e-7 / subdomain.width;
-    Displacement::new(&network, &Pores::merged(&network, 1.0), conditions)
-        .any(|event| event.kind == subdomain.kind && is_it(event.curvature))
-}
-
-#[test]
-fn the_cut_out_of_a_whole_pore_has_the_event_of_the_network() {
-    let folder = tempfile::tempdir().unwrap();
-    let (mut cut, mut with_event) = ([0, 0], 0);
-    let other = PACK.replace("seed = 3", "seed = 4");
-    let [min, max] = AROUND_THREE;
-    let touch = [min, max, "network.inlet=\"right\"", "network.outlet=\"left\""];
-    let free = ["network.trapping=false"];
-    for (shapes, angle, set) in [
-        (PACK, 110.0, &free[..]),
-        (PACK, 120.0, &free),
-        (&other, 130.0, &free),
-        (PACK, 140.0, &free),
-        (THREE, 110.0, &[min, max]),
-        (THREE, 120.0, &touch),
-    ] {
-        let subject = subject(folder.path(), shapes, angle, set);
-        for one in planned_events(&subject) {
-            let subdomain = match &one.subdomain {
-                Ok(subdomain) => subdomain,
-                Err(why) => {
-                    println!("{angle} degrees, event {} ({:?}): {why}", one.number, one.kind);
-                    assert!(one.kind != EventKind::Burst || why.to_string().contains("burst"), "{why}");
-                    continue;
-                }
-            };
-            assert_eq!(subdomain.kind, one.kind);
-            cut[usize::from(one.kind == EventKind::Touch)] += 1;
-            with_event += usize::from(has_event(subdomain));
-            // The invading phase ends at the menisci: between two bodies, or three.
-            let behind = subdomain.invading_shape(subdomain.curvature).unwrap();
-            let arcs = behind.outer.iter().filter(|[.., bulge]| *bulge != 0.0).count();
-            assert!(arcs <= if one.kind == EventKind::Touch { 1 } else { 2 }, "{behind:?}");
-        }
-    }
-    assert!(cut[0] >= 1 && cut[1] >= 1, "{cut:?}");
-    // In the others a meniscus comes into the pore another way before, past the sides of the box.
-    assert!(with_event * 10 >= 8 * (cut[0] + cut[1]), "{with_event} of {cut:?}");
-}
-
-#[test]
-fn events_are_chosen_by_what_they_are() {
-    let folder = tempfile::tempdir().unwrap();
-    let subject = subject(folder.path(), PACK, 140.0, &[]);
-    let choose = |text: &str| choose_events(&subject, &[text.parse().unwrap()], 1);
-    let kinds = |text: &str| choose(text).unwrap().iter().map(|one| one.kind).collect::<Vec<_>>();
-    assert_eq!(kinds("touch:1"), [EventKind::Touch]);
-    assert_eq!(kinds("overlap:1"), [EventKind::Overlap]);
-    let critical = choose("critical").unwrap();
-    assert_eq!(subject.events[critical[0].number - 1].applied, subject.to_breakthrough.as_ref().unwrap().1);
-    assert_eq!(kinds("1,2,1").len(), 2);
-    assert!(matches!(choose("0"), Err(EventError::NoEvent { .. })) && choose("9999").is_err());
-    assert!("touch".parse::<EventChoice>().is_err() && "burst:3".parse::<EventChoice>().is_err());
 }
 
 /// Two discs and a block, 150 µm and more apart.

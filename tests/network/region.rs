@@ -1,4 +1,4 @@
-//! Saturations and the porosity of a region, saturation functions for reservoir simulators, and what a table of events begins with.
+//! Saturations and the porosity of a region, and what a table of events begins with.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
@@ -76,63 +76,9 @@ fn a_region_without_a_pore_is_refused() {
     assert!(error(&["network.region.min=[0.0, 0.0]", "network.region.max=[3e-4, 1e-3]"]).is_some());
 }
 
-/// The rows of a keyword table: no comments, from its keyword to the slash.
-fn rows(text: &str, keyword: &str) -> Vec<[f64; 4]> {
-    let lines = text.lines().filter(|line| !line.starts_with("--")).skip_while(|line| *line != keyword).skip(1);
-    let row = |line: &str| {
-        let numbers: Vec<f64> = line.split_whitespace().map(|number| number.parse().unwrap()).collect();
-        numbers.try_into().unwrap()
-    };
-    lines.take_while(|line| *line != "/").map(row).collect()
-}
-
-#[test]
-fn saturation_functions_are_monotone_and_those_of_the_curves() {
-    let set = ["network.output={swof=true, sgof=true}", "network.region.extent=\"pack\""];
-    let folder = tempfile::tempdir().unwrap();
-    run(&chip(&set), folder.path(), Mode::New, &AtomicBool::new(false), &mut Unwatched);
-    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-    let (swof, sgof) = (read("swof.inc"), read("sgof.inc"));
-    assert!(swof.contains("METRIC") && swof.contains("bar"), "{swof}");
-    let (oil, gas) = (rows(&swof, "SWOF"), rows(&sgof, "SGOF"));
-    assert!(oil.len() > 5 && oil.len() == gas.len(), "{swof}");
-    for pair in oil.windows(2) {
-        let [[s, krw, krow, p], [next, krw_next, krow_next, p_next]] = [pair[0], pair[1]];
-        assert!(next > s && krw_next >= krw && krow_next <= krow && p_next <= p, "{pair:?}");
-    }
-    assert_eq!((oil[0][1], oil[oil.len() - 1]), (0.0, [1.0, 1.0, 0.0, oil[oil.len() - 1][3]]));
-    for (row, [sg, krg, krog, p]) in oil.iter().rev().zip(gas) {
-        assert!((row[0] + sg - 1.0).abs() < 2e-6 && [row[2], row[1], row[3]] == [krg, krog, p]);
-    }
-    // Pressures and saturations are those after events.
-    let events = read("events.csv");
-    let number = |text: &String| text.parse::<f64>().unwrap_or(f64::NAN);
-    let [saturations, pressures] = ["saturation", "capillary_pressure_Pa"]
-        .map(|name| column(&events, name).iter().map(number).collect::<Vec<_>>());
-    let on_curve = |[s, _, _, p]: &&[f64; 4]| {
-        let same = |(saturation, pressure): (&f64, &f64)| {
-            (saturation - s).abs() < 1e-6 && (pressure / 1e5 / p - 1.0).abs() < 1e-6
-        };
-        saturations.iter().zip(&pressures).any(same)
-    };
-    assert_eq!(oil.iter().rev().skip(1).filter(on_curve).count(), oil.len() - 1, "{swof}");
-    // Relative permeabilities at the same saturation are those of the other table.
-    let table = read("relative_permeability.csv");
-    let names = ["saturation", "relative_permeability_wetting", "relative_permeability_non_wetting"];
-    let [s, krw, krow] = names.map(|name| column(&table, name).iter().map(number).collect::<Vec<_>>());
-    let mut common = 0;
-    for row in &oil {
-        for k in (0..s.len()).filter(|&k| (s[k] - row[0]).abs() < 1e-6) {
-            assert!((krw[k] - row[1]).abs() < 1e-7 && (krow[k] - row[2]).abs() < 1e-7, "{row:?}");
-            common += 1;
-        }
-    }
-    assert!(common >= 2);
-}
-
 #[test]
 fn events_begin_with_what_is_filled_before_them() {
-    let cycle = loaded(&named("cycle"), &["expect=[]", "network.output.swof=true"]);
+    let cycle = loaded(&named("cycle"), &["expect=[]"]);
     let text = file(&cycle, "events.csv");
     let of = |name: &str| column(&text, name);
     let rows: Vec<[String; 4]> = of("half_cycle")

@@ -163,7 +163,6 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("stop", raw.stop.is_some()),
         ("initial", raw.initial.is_some()),
         ("dynamic", raw.dynamic.is_some()),
-        ("output", raw.output.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         checker.refuse(

@@ -16,6 +16,5 @@ pub(super) use films::refuse_films;
 pub(crate) use pore_network::{NetworkInterface, PoreNetwork};
 pub(super) use pore_network::{network, raw};
 pub use region::Region;
-pub(crate) use region::Tables;
 pub use table::Events;
 pub(crate) use table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};

@@ -4,7 +4,7 @@ use super::displacement::{
     NetworkDisplacement, displacement, raw_displacement, refuse_other_sides, refuse_without_inlet,
 };
 use super::measured::{self, Measured};
-use super::region::{Region, Tables, raw_region, refuse_tables, region};
+use super::region::{Region, raw_region, region};
 use super::state::Start;
 use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides};
 use crate::case::fluid::{Fluid, RawFluid, RawInterface, RawPhases, fluid};
@@ -36,9 +36,6 @@ pub struct PoreNetwork {
     /// Where saturations and the porosity are taken; `None`: in the whole domain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) region: Option<Region>,
-    /// Further files.
-    #[serde(skip_serializing_if = "Tables::is_empty")]
-    pub(crate) tables: Tables,
 }
 
 impl PoreNetwork {
@@ -95,9 +92,6 @@ pub(in crate::case) fn network(
         None
     };
     let region = region(checker, raw, sides.as_ref(), geometry);
-    let given = raw.output.clone().unwrap_or_default();
-    let tables = Tables { swof: given.swof.unwrap_or_default(), sgof: given.sgof.unwrap_or_default() };
-    refuse_tables(checker, raw, tables);
     if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
         return None;
     }
@@ -113,7 +107,6 @@ pub(in crate::case) fn network(
         },
         displacement,
         region,
-        tables,
     })
 }
 
@@ -245,7 +238,6 @@ pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
         persistence: Some(network.persistence),
         measured_throats: network.measured.as_ref().map(measured::table),
         region: network.region.map(raw_region),
-        output: (!network.tables.is_empty()).then(|| network.tables.raw()),
         ..RawNetwork::default()
     };
     let Some(displacement) = &network.displacement else { return none };

@@ -1,6 +1,6 @@
-//! `[network.region]`, the region of saturations and porosity, and `[network.output]`.
+//! `[network.region]`, the region of saturations and porosity.
 
-use super::table::{RawNetwork, RawNetworkOutput, RawRegion, RegionExtent};
+use super::table::{RawNetwork, RawRegion, RegionExtent};
 use crate::case::side::{Side, Sides};
 use crate::geometry::body::Body;
 use crate::geometry::spec::{GeometrySpec, SolidSide};
@@ -20,27 +20,6 @@ impl Region {
     /// The same as a box.
     pub(crate) fn bounds(self) -> Bounds {
         Bounds { min: self.min.into(), max: self.max.into() }
-    }
-}
-
-/// Saturation functions written as files for reservoir simulators.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-pub(crate) struct Tables {
-    /// Those of water and oil.
-    pub(crate) swof: bool,
-    /// Those of gas and liquid.
-    pub(crate) sgof: bool,
-}
-
-impl Tables {
-    /// Whether there are none.
-    pub(crate) fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
-
-    /// The corresponding table.
-    pub(super) fn raw(self) -> RawNetworkOutput {
-        RawNetworkOutput { swof: self.swof.then_some(true), sgof: self.sgof.then_some(true) }
     }
 }
 
@@ -116,19 +95,4 @@ fn pack(checker: &mut Checker, geometry: &GeometrySpec, domain: Bounds, sides: &
 /// The table of a region.
 pub(super) fn raw_region(region: Region) -> RawRegion {
     RawRegion { min: Some(region.min), max: Some(region.max), extent: None }
-}
-
-/// Refuses saturation functions without a quasi-static displacement from an inlet to an outlet.
-pub(super) fn refuse_tables(checker: &mut Checker, raw: &RawNetwork, tables: Tables) {
-    if tables.is_empty() || raw.inlet.is_none() {
-        return;
-    }
-    if raw.outlet.is_none() {
-        let message = "relative permeabilities need an outlet, and there is none";
-        checker.refuse("network.output", message, "add outlet = \"right\", say, or leave out [network.output]");
-    }
-    if raw.dynamic.is_some() {
-        let message = "saturation functions belong to quasi-static displacement, and [network.dynamic] is given";
-        checker.refuse("network.output", message, "leave out [network.output], or [network.dynamic]");
-    }
 }

@@ -49,8 +49,6 @@ tables! {
         pub dynamic: RawDynamic,
         /// Region over which saturations and the porosity are taken; not with `dynamic` (default: the whole domain).
         pub region: RawRegion,
-        /// Further files of a quasi-static displacement with an outlet.
-        pub output: RawNetworkOutput,
     }
 
     /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that crosses its boundary the part inside counts; pores
@@ -62,14 +60,6 @@ tables! {
         pub max: [f64; 2],
         /// `pack`: from the first to the last grain between inlet and outlet, across the whole domain; instead of both corners.
         pub extent: RegionExtent,
-    }
-
-    /// Further files.
-    pub(crate) struct RawNetworkOutput {
-        /// Writes `swof.inc`, saturation functions of water and oil of the last half cycle as reservoir simulators read them (default false).
-        pub swof: bool,
-        /// Writes `sgof.inc`, those of gas and liquid (default false).
-        pub sgof: bool,
     }
 
     /// The sides that are neither inlet nor outlet.

@@ -2,13 +2,11 @@
 
 use super::event::{Candidate, EventKind};
 use super::loops::GateId;
+use super::mesh::FrontId;
 use super::progress::Displacement;
 use crate::interface::menisci::Passage;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
-
-/// A gate and the end at which a meniscus enters.
-pub(crate) type FrontId = (usize, usize);
 
 /// A pending event of a meniscus, or of two that meet.
 #[derive(Debug, Clone, PartialEq)]

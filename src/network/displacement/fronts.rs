@@ -1,9 +1,8 @@
 //! Menisci in gates: their passages, pending events, and neighbors along the walls.
 
-use super::driven::FrontId;
 use super::event::{Candidate, EventKind};
 use super::loops::Loop;
-use super::mesh::Mesh;
+use super::mesh::{FrontId, Mesh};
 use super::progress::{Displacement, Front};
 use super::walls::{Sides, gate_walls, is_same};
 use crate::case::network::Events;
@@ -18,7 +17,7 @@ type SeamOf = fn(&Loop, usize) -> Vec2;
 /// The next meniscus along a wall.
 pub(super) struct Neighbor {
     /// Its gate and the end at which it enters.
-    pub(crate) front: (usize, usize),
+    pub(crate) front: FrontId,
     /// Length of wall between both gates in m.
     shared: f64,
     /// Shift in m from its frame to that of the meniscus of which it is the neighbor.
@@ -81,7 +80,7 @@ impl Displacement {
     }
 
     /// Overlaps of a new meniscus with its neighbors on both walls.
-    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): (usize, usize), passage: &Passage, own: f64) {
+    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): FrontId, passage: &Passage, own: f64) {
         for hand in [Hand::Left, Hand::Right] {
             let Some(neighbor) = self.neighbor(mesh, (gate, to), hand) else { continue };
             let (other, end) = neighbor.front;
@@ -98,7 +97,7 @@ impl Displacement {
     }
 
     /// The next meniscus along a wall of a gate, ahead of the meniscus that enters it, with nothing but the defending phase in between.
-    pub(super) fn neighbor(&self, mesh: &Mesh, (gate, to): (usize, usize), hand: Hand) -> Option<Neighbor> {
+    pub(super) fn neighbor(&self, mesh: &Mesh, (gate, to): FrontId, hand: Hand) -> Option<Neighbor> {
         let (mut index, slot) = mesh.gates[gate].crossings[to];
         let next = |index: usize, k: usize| (k + 1) % mesh.loops[index].walls.len();
         let before = |index: usize, k: usize| (k + mesh.loops[index].walls.len() - 1) % mesh.loops[index].walls.len();
@@ -139,7 +138,7 @@ impl Displacement {
 
     /// Curvature in 1/m of the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both \[CieplakRobbins1988\]. Within
     /// one element it advances at once.
-    pub(super) fn joined_event(&self, mesh: &Mesh, front: (usize, usize), hand: Hand, neighbor: &Neighbor) -> f64 {
+    pub(super) fn joined_event(&self, mesh: &Mesh, front: FrontId, hand: Hand, neighbor: &Neighbor) -> f64 {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;
         }
@@ -152,7 +151,7 @@ impl Displacement {
     pub(super) fn joined_passage(
         &self,
         mesh: &Mesh,
-        front: (usize, usize),
+        front: FrontId,
         hand: Hand,
         neighbor: &Neighbor,
     ) -> (Passage, Vec<Curve>) {

@@ -1,7 +1,6 @@
 //! The order of events: by rising curvature, events of equal curvature simultaneously.
 
 use super::event::{Candidate, EventKind};
-use super::involved::Involved;
 use super::mesh::Mesh;
 use super::progress::Displacement;
 
@@ -18,13 +17,11 @@ pub struct Event {
     pub curvature: f64,
     /// The applied curvature in 1/m: the largest so far.
     pub applied: f64,
-    /// Its menisci.
-    pub involved: Involved,
 }
 
 impl Displacement {
-    /// The next valid event, the elements that it fills and its menisci; with `only_tied`, `None` if none of the last curvature is left.
-    fn next_candidate(&mut self, mesh: &Mesh, only_tied: bool) -> Option<(Candidate, Vec<usize>, Involved)> {
+    /// The next valid event and the elements that it fills; with `only_tied`, `None` if none of the last curvature is left.
+    fn next_candidate(&mut self, mesh: &Mesh, only_tied: bool) -> Option<(Candidate, Vec<usize>)> {
         loop {
             if self.tied.is_empty() {
                 if only_tied {
@@ -36,7 +33,7 @@ impl Displacement {
             let Candidate { gate, to, partner, kind, .. } = candidate;
             if kind == EventKind::SnapOff {
                 if self.can_close(mesh, gate) {
-                    return Some((candidate, Vec::new(), Involved::alone((gate, to))));
+                    return Some((candidate, Vec::new()));
                 }
                 continue;
             }
@@ -45,7 +42,7 @@ impl Displacement {
             }
             let Some((front, hand)) = partner else {
                 let ahead = (kind != EventKind::Reconnection).then(|| mesh.element(gate, to));
-                return Some((candidate, ahead.into_iter().collect(), Involved::alone((gate, to))));
+                return Some((candidate, ahead.into_iter().collect()));
             };
             // Another meniscus may have formed in between.
             let neighbor = self.neighbor(mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front);
@@ -59,8 +56,7 @@ impl Displacement {
                 self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
                 continue;
             }
-            let involved = Involved::both((gate, to), hand, &neighbor, candidate.is_joined);
-            return Some((candidate, neighbor.passed, involved));
+            return Some((candidate, neighbor.passed));
         }
     }
 
@@ -87,7 +83,7 @@ impl Iterator for Displacement {
 
     fn next(&mut self) -> Option<Event> {
         let mesh = self.mesh.clone();
-        let (candidate, filled, involved) = self.next_candidate(&mesh, false)?;
+        let (candidate, filled) = self.next_candidate(&mesh, false)?;
         let Candidate { kind, curvature, gate, .. } = candidate;
         self.applied = self.applied.max(curvature);
         match kind {
@@ -103,6 +99,6 @@ impl Iterator for Displacement {
             filled.iter().flat_map(|&element| &mesh.elements[element].loops).copied().collect();
         elements.sort_unstable();
         elements.dedup();
-        Some(Event { kind, throat: mesh.gates[gate].throat, elements, curvature, applied: self.applied, involved })
+        Some(Event { kind, throat: mesh.gates[gate].throat, elements, curvature, applied: self.applied })
     }
 }

@@ -13,7 +13,7 @@ use super::conditions::Conditions;
 use super::event::{Candidate, EventKind};
 use super::fronts::Neighbor;
 use super::loops::GateId;
-use super::mesh::Gate;
+use super::mesh::{FrontId, Gate};
 use super::progress::{Displacement, Division};
 use super::wall_chains::{Side, WallChains};
 use crate::geometry::curve::Curve;
@@ -37,7 +37,7 @@ pub(crate) struct StaticMeniscus {
     /// Length of wall in m from the gate to the left and the right contact, each from its own gate.
     pub(crate) advances: [f64; 2],
     /// Its gate, or both gates of a merged meniscus, with the ends at which they enter.
-    gates: Vec<(usize, usize)>,
+    gates: Vec<FrontId>,
 }
 
 /// All interfaces, and the boundary of the invading phase.
@@ -55,7 +55,7 @@ pub(crate) struct Interfaces {
 /// Two menisci that have met and merged.
 struct Pair {
     /// Their gates with the ends at which they enter.
-    gates: [(usize, usize); 2],
+    gates: [FrontId; 2],
     /// The passage between the outer walls of both.
     passage: Passage,
 }
@@ -171,7 +171,7 @@ impl Displacement {
     fn static_menisci(&self, applied: f64, trapped: &[f64]) -> Vec<StaticMeniscus> {
         let mesh = &self.mesh;
         let joined = self.joined();
-        let is_joined = |front: (usize, usize)| joined.iter().any(|pair| pair.gates.contains(&front));
+        let is_joined = |front: FrontId| joined.iter().any(|pair| pair.gates.contains(&front));
         let mut found = Vec::new();
         for (gate, to) in (0..mesh.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]) {
             let (from, into) = (mesh.element(gate, 1 - to), mesh.element(gate, to));
@@ -196,7 +196,7 @@ impl Displacement {
     }
 
     /// The meniscus of a passage at a curvature, or the chords of its gates.
-    fn at(&self, passage: &Passage, curvature: f64, gates: &[(usize, usize)]) -> Vec<StaticMeniscus> {
+    fn at(&self, passage: &Passage, curvature: f64, gates: &[FrontId]) -> Vec<StaticMeniscus> {
         let found = passage.at(curvature).filter(|it: &Meniscus| it.bend.abs() < PI && it.chord() > 0.0);
         let Some(meniscus) = found else { return gates.iter().map(|&gate| self.chord(gate)).collect() };
         let is_one = gates.len() == 1;
@@ -213,7 +213,7 @@ impl Displacement {
     }
 
     /// The chord of a gate as a substitute for its meniscus.
-    fn chord(&self, (gate, to): (usize, usize)) -> StaticMeniscus {
+    fn chord(&self, (gate, to): FrontId) -> StaticMeniscus {
         let sides = self.mesh.gates[gate].crossings;
         let crossing = self.mesh.loops[sides[to].0].crossings[sides[to].1];
         StaticMeniscus {
@@ -237,7 +237,7 @@ impl Displacement {
         for candidate in waiting.into_iter().rev() {
             let Some((other, hand)) = candidate.partner else { continue };
             let one = (candidate.gate, candidate.to);
-            let is_new = |front: (usize, usize)| pairs.iter().all(|pair| !pair.gates.contains(&front));
+            let is_new = |front: FrontId| pairs.iter().all(|pair| !pair.gates.contains(&front));
             if self.fronts[one.0][one.1].is_none() || !is_new(one) || !is_new(other) {
                 continue;
             }

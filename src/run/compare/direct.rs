@@ -58,7 +58,7 @@ pub(crate) fn track(
     let breakthrough = task.pair.is_in_time().then(|| breakthrough(&report, state.invading)).flatten();
     let filled = vec![None; state.elements.len()];
     let mut track = Track { filled, breakthrough, totals: totals(report), ..Track::default() };
-    for record in recorder.states.records() {
+    for record in recorder.states.records {
         // Elements are filled that the invading phase holds in more than half of their cells.
         let mut shares = vec![[0_usize; 2]; state.elements.len()];
         for (&(_, element), &invaded) in grid.cells.iter().zip(&record.invaded) {
@@ -99,7 +99,7 @@ impl Watcher for Recorder<'_> {
     }
 
     fn recorded(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
-        self.states.add(solver.time(), as_record(solver, self.grid, self.invading, self.drive))
+        self.states.add(as_record(solver, self.grid, self.invading, self.drive))
     }
 }
 

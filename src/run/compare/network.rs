@@ -26,7 +26,7 @@ pub(crate) fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, Co
     let mut track = Track::default();
     while let Some(cycles) = solver.cycles().filter(|cycles| cycles.half_cycle_index() == 0) {
         if cycles.history().len() + 1 > track.records.len() {
-            let displacement = cycles.displacement();
+            let displacement = &cycles.displacement;
             let holds = |element: usize| displacement.phase(element) == Phase::Invading;
             let pressure = |applied| solver.config().pressure(cycles.half_cycle().invading, applied);
             let record = Record {

@@ -54,7 +54,15 @@ pub struct Group {
 
 impl Group {
     /// A group without columns of its own.
-    pub(crate) const fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
-        Self { columns: |_, _| Vec::new(), measures, warnings: |_| Vec::new() }
+    pub(crate) fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
+        Self::with_columns(|_, _| Vec::new(), measures)
+    }
+
+    /// A group with columns of its own.
+    pub(crate) fn with_columns(
+        columns: fn(&Flow, &Observation) -> Columns,
+        measures: fn(&Subject) -> Vec<Measure>,
+    ) -> Self {
+        Self { columns, measures, warnings: |_| Vec::new() }
     }
 }
