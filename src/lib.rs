@@ -109,8 +109,8 @@ pub use math::{Bounds, Vec2};
 /// The pore network of a geometry, and the events of a displacement in it:
 ///
 /// ```
-/// use meniscus::{Conditions, CornerFilms, Disc, Displacement, EventKind, Events, Geometry, GeometrySpec, Network, Phase};
-/// use meniscus::{Pores, ShapeSpec, SolidSide, Trapping, extract};
+/// use meniscus::{Conditions, Disc, Displacement, EventKind, Geometry, GeometrySpec, Network, Phase, Pores, ShapeSpec};
+/// use meniscus::{SolidSide, Trapping, extract};
 ///
 /// // Two discs; open on the left and on the right.
 /// let shapes = [-1e-3, 1e-3].map(|y| ShapeSpec::Disc(Disc { center: [0.0, y], radius: 0.9e-3 })).to_vec();
@@ -122,14 +122,10 @@ pub use math::{Bounds, Vec2};
 ///
 /// // A gas displaces a liquid that wets all walls: angles of the shapes, then of the sides.
 /// let conditions = Conditions {
-///     angle: vec![0.0; 2 + 4],
 ///     inlet: [true, false, false, false],
 ///     outlet: [false, true, false, false],
 ///     trapping: Trapping::Disconnected,
-///     events: Events::All,
-///     largest_curvature: f64::INFINITY,
-///     measured: Vec::new(),
-///     films: CornerFilms::Absent,
+///     ..Conditions::new(vec![0.0; 2 + 4])
 /// };
 /// let mut events = Displacement::new(&network, &Pores::merged(&network, 1.0), conditions);
 /// let burst = events.find(|event| event.throat == Some(0)).expect("the gas passes the throat");

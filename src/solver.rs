@@ -62,9 +62,9 @@ pub struct Measure {
     pub moves_with: Option<MovesWith>,
 }
 
-/// A measure without an error bar: its value in `unit`, and its `method` in one sentence.
-pub(crate) fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
+/// A measure by its value in `unit`, without an error bar.
+pub(crate) fn measure(name: &str, value: f64, unit: &str) -> Measure {
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: String::new(), moves_with: None }
 }
 
 /// The column with which a measure varies.
@@ -77,6 +77,16 @@ pub struct MovesWith {
 }
 
 impl Measure {
+    /// The same measure, with how it was measured in one sentence.
+    pub(crate) fn by(self, method: impl Into<String>) -> Self {
+        Self { method: method.into(), ..self }
+    }
+
+    /// The same measure with one standard uncertainty in its unit, if known.
+    pub(crate) fn with_uncertainty(self, uncertainty: impl Into<Option<f64>>) -> Self {
+        Self { uncertainty: uncertainty.into(), ..self }
+    }
+
     /// The same measure, which varies with a `column` of the series: changes of the column times `factor` are those of the measure.
     pub(crate) fn moving_with(self, column: &'static str, factor: f64) -> Self {
         Self { moves_with: Some(MovesWith { column, factor }), ..self }

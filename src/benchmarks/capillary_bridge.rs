@@ -2,13 +2,10 @@
 
 use super::disc_pair::disc_pair;
 use crate::math::Vec2;
-use crate::solver::Measure;
-use crate::sph::measures::{DiscOf, Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::{DiscOf, Subject};
 
-/// Measures of its table `[sph.measure.capillary-bridge]`.
-pub(crate) const GROUP: Group = Group::of(measures);
-
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let [a, b, ..] = s.discs else { return vec![] };
     let axis = (b.center - a.center).normalize();
     let middle = 0.5 * (a.center + b.center);
@@ -27,33 +24,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let tension = s.flow.config.method.tension;
     let pressure = s.observed.capillary_pressure.value;
     vec![
-        measure(
-            "filling-angle-deg",
-            mean,
-            "deg",
-            None,
-            "contact points of the fitted circles from the line of centers",
-        ),
-        measure(
-            "neck-half-width-m",
-            neck,
-            "m",
-            None,
-            "smallest distance of the c = 0.5 contour from the line of centers",
-        ),
-        measure(
-            "capillary-pressure-ratio",
-            ratio(pressure, exact.map(|e| tension * e.curvature)),
-            "",
-            None,
-            "capillary pressure over that of the exact bridge with the same area and the requested angle",
-        ),
-        measure(
-            "filling-angle-ratio",
-            ratio(mean.to_radians(), exact.map(|e| e.filling)),
-            "",
-            None,
-            "filling angle over that of the exact bridge with the same area and the requested angle",
-        ),
+        measure("filling-angle-deg", mean, "deg").by("contact points of the fitted circles from the line of centers"),
+        measure("neck-half-width-m", neck, "m").by("smallest distance of the c = 0.5 contour from the line of centers"),
+        measure("capillary-pressure-ratio", ratio(pressure, exact.map(|e| tension * e.curvature)), "")
+            .by("capillary pressure over that of the exact bridge with the same area and the requested angle"),
+        measure("filling-angle-ratio", ratio(mean.to_radians(), exact.map(|e| e.filling)), "")
+            .by("filling angle over that of the exact bridge with the same area and the requested angle"),
     ]
 }

@@ -3,16 +3,13 @@
 use super::series::{extremum, pairs};
 use super::slit_filling::entry;
 use crate::math::Vec2;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 
-/// Columns and measures of its table `[sph.measure.capillary-rise]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
-
 /// `apex_m`: distance of the nearest point of the interface from the side through which the wetting phase enters.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let apex = entry(flow).map_or(f64::NAN, |side| {
         let points = observation.interface.iter().flat_map(|line| &line.points);
         points.map(|x: &Vec2| -side.overshoot(*x)).fold(f64::INFINITY, f64::min)
@@ -20,7 +17,7 @@ fn columns(flow: &Flow, observation: &Observation) -> Columns {
     vec![("apex_m", apex)]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (times, heights) = pairs(s.series, "apex_m");
     let Some(&last) = heights.last() else { return vec![] };
     let turn = |from: usize, sign: f64| {
@@ -32,34 +29,19 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let [highest, lowest] = [peak, low].map(|row| extremum(&times, &heights, row));
     let method = "the point of the interface that is nearest to the side of entry, over all records, by the parabola through the three records there";
     vec![
-        measure("peak-apex-m", highest.value, "m", Some(highest.value_error), &format!("largest distance of {method}")),
-        measure(
-            "peak-time-s",
-            highest.time,
-            "s",
-            Some(highest.time_error),
-            &format!("time of the largest distance of {method}"),
-        ),
-        measure(
-            "minimum-apex-m",
-            lowest.value,
-            "m",
-            Some(lowest.value_error),
-            &format!("least distance after the peak of {method}"),
-        ),
-        measure(
-            "minimum-time-s",
-            lowest.time,
-            "s",
-            Some(lowest.time_error),
-            &format!("time of the least distance after the peak of {method}"),
-        ),
-        measure(
-            "final-apex-m",
-            last,
-            "m",
-            None,
-            "distance of the point of the interface nearest to the side of entry, at the end",
-        ),
+        measure("peak-apex-m", highest.value, "m")
+            .by(format!("largest distance of {method}"))
+            .with_uncertainty(highest.value_error),
+        measure("peak-time-s", highest.time, "s")
+            .by(format!("time of the largest distance of {method}"))
+            .with_uncertainty(highest.time_error),
+        measure("minimum-apex-m", lowest.value, "m")
+            .by(format!("least distance after the peak of {method}"))
+            .with_uncertainty(lowest.value_error),
+        measure("minimum-time-s", lowest.time, "s")
+            .by(format!("time of the least distance after the peak of {method}"))
+            .with_uncertainty(lowest.time_error),
+        measure("final-apex-m", last, "m")
+            .by("distance of the point of the interface nearest to the side of entry, at the end"),
     ]
 }

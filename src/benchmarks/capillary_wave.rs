@@ -6,14 +6,11 @@ use nalgebra::Complex;
 
 use super::series::pairs;
 use super::waves::inverse_laplace;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-
-/// Columns and measures of its table `[sph.measure.capillary-wave]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A standing wave on the flat interface of two equal fluids.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +49,7 @@ impl CapillaryWave {
 }
 
 /// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, with the crest in the middle of the box.
-fn columns(flow: &Flow, _: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, _: &Observation) -> Columns {
     let (bounds, fluids) = (flow.config.domain.bounds, flow.state.particles.fluids);
     let length = bounds.size().x;
     let mode = |a: usize| {
@@ -63,7 +60,7 @@ fn columns(flow: &Flow, _: &Observation) -> Columns {
     vec![("wave_amplitude_m", 2.0 / length * wetting.map(mode).sum::<f64>())]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.config.method;
     let wave = CapillaryWave {
         length: s.flow.config.domain.bounds.size().x,
@@ -77,7 +74,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let equal = m.wetting_fluid == m.other_fluid;
     let error = if equal { (squares / times.len() as f64).sqrt() } else { f64::NAN };
     let method = "root mean square over the records of amplitude over first amplitude less the linear viscous solution for equal fluids";
-    vec![measure("wave-rms-error", error, "", None, method)]
+    vec![measure("wave-rms-error", error, "").by(method)]
 }
 
 #[cfg(test)]

@@ -2,17 +2,14 @@
 
 use crate::analysis::resample::Stencils;
 use crate::math::Vec2;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 use crate::sph::observe::fluid_samples;
-
-/// Measures of its table `[sph.measure.cavity]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Points on a center line: much denser than the particles, to resolve the extremum.
 const POINTS: usize = 400;
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds) = (s.flow, s.flow.config.domain.bounds);
     let lid = s.wall_speeds[3];
     let velocity = &flow.state.particles.velocity[..flow.state.particles.fluids];
@@ -29,8 +26,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let u = upright.iter().map(|v| v.x / lid).fold(f64::NAN, f64::min);
     let [least, most] = [f64::min, f64::max].map(|pick| level.iter().map(|v| v.y / lid).fold(f64::NAN, pick));
     vec![
-        measure("u-min", u, "", None, "least velocity along the lid on the upright center line, over that of the lid"),
-        measure("v-max", most, "", None, "largest upward velocity on the level center line, over that of the lid"),
-        measure("v-min", least, "", None, "least upward velocity on the level center line, over that of the lid"),
+        measure("u-min", u, "").by("least velocity along the lid on the upright center line, over that of the lid"),
+        measure("v-max", most, "").by("largest upward velocity on the level center line, over that of the lid"),
+        measure("v-min", least, "").by("least upward velocity on the level center line, over that of the lid"),
     ]
 }

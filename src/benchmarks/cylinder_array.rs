@@ -2,13 +2,10 @@
 
 use super::series::pairs;
 use crate::math::Vec2;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 
-/// Measures of its table `[sph.measure.cylinder-array]`.
-pub(crate) const GROUP: Group = Group::of(measures);
-
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, m) = (s.flow, &s.flow.config.method);
     let area = flow.config.domain.bounds.area();
     let p = &flow.state.particles;
@@ -32,10 +29,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let method_of_unsteady = "magnitude of the rate of the momentum, across the force too, between the last two records over the force on the \
                               fluid; the drag of a flow that still gathers speed is too high";
     vec![
-        measure("drag-over-mu-u", drag, "", None, method),
-        measure("mean-velocity-m-per-s", mean, "m/s", None, method_of_mean),
-        measure("permeability-m2", permeability, "m2", None, method_of_permeability),
-        measure("unsteady-share", unsteady, "", None, method_of_unsteady),
+        measure("drag-over-mu-u", drag, "").by(method),
+        measure("mean-velocity-m-per-s", mean, "m/s").by(method_of_mean),
+        measure("permeability-m2", permeability, "m2").by(method_of_permeability),
+        measure("unsteady-share", unsteady, "").by(method_of_unsteady),
     ]
 }
 

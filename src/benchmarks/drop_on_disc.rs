@@ -4,11 +4,8 @@ use std::f64::consts::PI;
 
 use crate::analysis::roots::bisect;
 use crate::interface::cap::cap;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
-
-/// Measures of its table `[sph.measure.drop-on-disc]`.
-pub(crate) const GROUP: Group = Group::of(measures);
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 
 /// A drop on a disc without gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +40,7 @@ pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<Dr
     Some(DropOnDisc { half_angle: half_angle(radius), height: distance(radius) + radius - disc_radius })
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.config.method.wetting) else { return vec![] };
     let ends: Vec<_> = s.observed.lines_with_angle().collect();
     let half = match ends[..] {
@@ -55,27 +52,13 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let exact = drop_on_disc(s.observed.areas.wetting, wetting.static_angle(), disc.radius);
     let ratio = |found: f64, exact: Option<f64>| exact.map_or(f64::NAN, |exact| found / exact);
     vec![
-        measure(
-            "half-angle-deg",
-            half.to_degrees(),
-            "deg",
-            None,
-            "half of the angle between the contact points of the fitted circle, seen from the center of the disc",
-        ),
-        measure(
-            "half-angle-ratio",
-            ratio(half, exact.map(|e| e.half_angle)),
-            "",
-            None,
-            "half-angle over that of the exact drop with the same area and the requested angle",
-        ),
-        measure(
-            "height-ratio",
-            ratio(height, exact.map(|e| e.height)),
-            "",
-            None,
-            "largest distance of the c = 0.5 contour from the disc over that of the exact drop",
-        ),
+        measure("half-angle-deg", half.to_degrees(), "deg")
+            .by("half of the angle between the contact points of the fitted circle, seen from the center of the \
+                 disc"),
+        measure("half-angle-ratio", ratio(half, exact.map(|e| e.half_angle)), "")
+            .by("half-angle over that of the exact drop with the same area and the requested angle"),
+        measure("height-ratio", ratio(height, exact.map(|e| e.height)), "")
+            .by("largest distance of the c = 0.5 contour from the disc over that of the exact drop"),
     ]
 }
 

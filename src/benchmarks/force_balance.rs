@@ -5,8 +5,8 @@
 //! moving lines the friction in the wedge would count twice, since it is what bends the interface there.
 
 use super::series::{last, last_mean};
-use crate::solver::{Measure, Series};
-use crate::sph::measures::{Subject, measure};
+use crate::solver::{Measure, Series, measure};
+use crate::sph::measures::Subject;
 
 /// Last fraction of the time over which the balance is averaged. It holds at all times, also during acceleration, and a drop of low viscosity oscillates: a
 /// long average is best.
@@ -74,47 +74,23 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let static_angle = s.flow.config.method.wetting.map_or(f64::NAN, |model| model.static_angle());
     let retention = "tension times (cosine of the receding less that of the advancing angle), mean over the last three quarters of the time";
     vec![
-        measure("advancing-wall-angle-deg", angles[0].0, "deg", Some(angles[0].1), model),
-        measure("receding-wall-angle-deg", angles[1].0, "deg", Some(angles[1].1), model),
-        measure(
-            "adhesion-tension-N-per-m",
-            tension * static_angle.cos(),
-            "N/m",
-            None,
-            "tension times the cosine of the static angle: that of the dry less that of the wetted wall",
-        ),
-        measure("retention-N-per-m", apparent, "N/m", None, retention),
-        measure("wall-retention-N-per-m", at_wall, "N/m", None, "the same with the angles at the wall"),
-        measure(
-            "stream-drag-N-per-m",
-            balance.stream,
-            "N/m",
-            None,
-            "pressure of the other fluid on the interface less buoyancy, and its friction, ahead; mean over the last three quarters of the time",
-        ),
-        measure(
-            "net-drag-N-per-m",
-            drag,
-            "N/m",
-            None,
-            "body force less buoyancy plus friction of the wall plus drag of the stream less the change of the momentum of the drop, along \
-             the wall, over the last three quarters of the time",
-        ),
-        measure("drag-over-retention", drag / apparent, "", None, "net drag over the retention by the apparent angles"),
-        measure(
-            "drag-over-wall-retention",
-            drag / at_wall,
-            "",
-            None,
-            "net drag over the retention by the angles at the wall",
-        ),
-        measure(
-            "momentum-balance-error",
-            balance.error(),
-            "",
-            None,
-            "net drag less the retention by the angles at the wall, over the tension",
-        ),
+        measure("advancing-wall-angle-deg", angles[0].0, "deg").by(model).with_uncertainty(angles[0].1),
+        measure("receding-wall-angle-deg", angles[1].0, "deg").by(model).with_uncertainty(angles[1].1),
+        measure("adhesion-tension-N-per-m", tension * static_angle.cos(), "N/m")
+            .by("tension times the cosine of the static angle: that of the dry less that of the wetted wall"),
+        measure("retention-N-per-m", apparent, "N/m").by(retention),
+        measure("wall-retention-N-per-m", at_wall, "N/m").by("the same with the angles at the wall"),
+        measure("stream-drag-N-per-m", balance.stream, "N/m")
+            .by("pressure of the other fluid on the interface less buoyancy, and its friction, ahead; mean over the \
+                 last three quarters of the time"),
+        measure("net-drag-N-per-m", drag, "N/m")
+            .by("body force less buoyancy plus friction of the wall plus drag of the stream less the change of the \
+                 momentum of the drop, along the wall, over the last three quarters of the time"),
+        measure("drag-over-retention", drag / apparent, "").by("net drag over the retention by the apparent angles"),
+        measure("drag-over-wall-retention", drag / at_wall, "")
+            .by("net drag over the retention by the angles at the wall"),
+        measure("momentum-balance-error", balance.error(), "")
+            .by("net drag less the retention by the angles at the wall, over the tension"),
     ]
 }
 

@@ -1,13 +1,10 @@
 //! Menisci of a wetting liquid between four discs (C8 of the benchmarks), compared with their closed form.
 
 use super::disc_pair::disc_pair;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 
-/// Measures of its table `[sph.measure.four-discs]`.
-pub(crate) const GROUP: Group = Group::of(measures);
-
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let found: Vec<f64> = s.observed.lines_with_angle().map(|line| line.curvature).collect();
     let mean = found.iter().sum::<f64>() / found.len() as f64;
     let of_fits =
@@ -19,26 +16,14 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let (pressure, tension) = (s.observed.capillary_pressure, s.flow.config.method.tension);
     let pressure_error = pressure.uncertainty(tension, s.flow.config.method.kernel.h);
     vec![
-        measure(
-            "interface-curvature-per-m",
-            mean,
-            "1/m",
-            Some(error),
-            "mean over the fitted menisci, negative where the wetting liquid is concave",
-        ),
-        measure(
-            "interface-curvature-ratio",
-            over_exact(-mean),
-            "",
-            Some(error / mean.abs()),
-            "curvature over that of the exact menisci with the same area and the requested angle",
-        ),
-        measure(
-            "capillary-pressure-ratio",
-            over_exact(pressure.value / tension),
-            "",
-            Some(over_exact(pressure_error / tension).abs()),
-            "capillary pressure over that of the exact menisci with the same area and the requested angle",
-        ),
+        measure("interface-curvature-per-m", mean, "1/m")
+            .by("mean over the fitted menisci, negative where the wetting liquid is concave")
+            .with_uncertainty(error),
+        measure("interface-curvature-ratio", over_exact(-mean), "")
+            .by("curvature over that of the exact menisci with the same area and the requested angle")
+            .with_uncertainty(error / mean.abs()),
+        measure("capillary-pressure-ratio", over_exact(pressure.value / tension), "")
+            .by("capillary pressure over that of the exact menisci with the same area and the requested angle")
+            .with_uncertainty(over_exact(pressure_error / tension).abs()),
     ]
 }

@@ -1,18 +1,15 @@
 //! Rise beside a plate that divides a trough into a narrow and a wide part (C3 of the benchmarks; Jurin's law).
 
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 use crate::sph::particles::Phase;
-
-/// Measures of its table `[sph.measure.jurin]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Mean rise in m between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
 pub(crate) fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
     2.0 * capillary_length.powi(2) * angle.cos() / width
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.config.method.wetting) else { return vec![] };
     let (flow, bounds, m) = (s.flow, s.flow.config.domain.bounds, &s.flow.config.method);
     let widths = [plate.min.x - bounds.min.x, bounds.max.x - plate.max.x];
@@ -34,20 +31,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let mean = |width: f64| jurin_mean_height(width, length, wetting.static_angle());
     let exact = mean(widths[0]) - mean(widths[1]);
     vec![
-        measure(
-            "rise-difference-m",
-            rise,
-            "m",
-            None,
-            "mean level (area over width) left of the plate less that right of it, at the end",
-        ),
-        measure(
-            "rise-ratio",
-            rise / exact,
-            "",
-            None,
-            "difference of the mean levels over that of Jurin's law on both sides",
-        ),
+        measure("rise-difference-m", rise, "m")
+            .by("mean level (area over width) left of the plate less that right of it, at the end"),
+        measure("rise-ratio", rise / exact, "")
+            .by("difference of the mean levels over that of Jurin's law on both sides"),
     ]
 }
 

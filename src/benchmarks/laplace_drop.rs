@@ -4,17 +4,14 @@ use super::moments::Moments;
 use super::series::last;
 use crate::analysis::phases::{PressureSamples, laplace_jump, resolution_error};
 use crate::math::Vec2;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 use crate::sph::observe::sharp_color;
-
-/// Measures of its table `[sph.measure.laplace-drop]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Last fraction of the run over which the maximum speed of the parasitic current is taken.
 const LAST: f64 = 0.1;
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, fluids) = (s.flow, s.flow.state.particles.fluids);
     let colors = sharp_color(flow);
     let radius = (s.observed.areas.wetting / std::f64::consts::PI).sqrt();
@@ -34,30 +31,17 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let speed = speeds.into_iter().map(|(_, speed)| speed).fold(f64::NAN, f64::max);
     let capillary = flow.config.method.wetting_fluid.viscosity * speed / flow.config.method.tension;
     vec![
-        measure(
-            "laplace-jump-ratio",
-            jump.mean / scale,
-            "",
-            Some(
+        measure("laplace-jump-ratio", jump.mean / scale, "")
+            .by("mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area")
+            .with_uncertainty(
                 jump.error.hypot(resolution_error(jump.mean, flow.config.method.tension, flow.config.method.kernel.h))
                     / scale,
             ),
-            "mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area",
-        ),
-        measure(
-            "parasitic-capillary-number",
-            capillary,
-            "",
-            None,
-            "drop viscosity times the largest speed of the records in the last tenth of the run over the tension",
-        ),
-        measure(
-            "radius-scatter-ratio",
-            scatter(s),
-            "",
-            None,
-            "standard deviation over mean of the distance of the c = 0.5 contour from the center of the drop",
-        ),
+        measure("parasitic-capillary-number", capillary, "")
+            .by("drop viscosity times the largest speed of the records in the last tenth of the run over the \
+                 tension"),
+        measure("radius-scatter-ratio", scatter(s), "")
+            .by("standard deviation over mean of the distance of the c = 0.5 contour from the center of the drop"),
     ]
 }
 

@@ -1,11 +1,8 @@
 //! Two layers between plates, the wetting phase below (A2 of the benchmarks).
 
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 use crate::sph::particles::Phase;
-
-/// Measures of its table `[sph.measure.layered-poiseuille]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Two layers between plates at y = 0 and y = H, driven by a force per volume; layer 1 is the lower one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +42,7 @@ impl LayeredPoiseuille {
     }
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds, m) = (s.flow, s.flow.config.domain.bounds, &s.flow.config.method);
     let p = &flow.state.particles;
     let height = bounds.size().y;
@@ -68,15 +65,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let exact = law.flow_rates();
     let method = "flow rate of the layer at the end over the exact one";
     vec![
-        measure(
-            "layered-velocity-l2-error",
-            (error / size).sqrt(),
-            "",
-            None,
-            "L2 norm over particles of the velocity at the end less the steady one, over that of the steady one",
-        ),
-        measure("wetting-flow-rate-ratio", rates[0] / exact[0], "", None, method),
-        measure("non-wetting-flow-rate-ratio", rates[1] / exact[1], "", None, method),
+        measure("layered-velocity-l2-error", (error / size).sqrt(), "")
+            .by("L2 norm over particles of the velocity at the end less the steady one, over that of the steady one"),
+        measure("wetting-flow-rate-ratio", rates[0] / exact[0], "").by(method),
+        measure("non-wetting-flow-rate-ratio", rates[1] / exact[1], "").by(method),
     ]
 }
 

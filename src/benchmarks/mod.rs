@@ -42,26 +42,32 @@ use crate::sph::measures::Group;
 /// The groups of measures that a case asks for.
 pub fn requested_groups(set: &MeasureSet) -> Vec<Group> {
     let all = [
-        (set.sessile_drop, sessile_drop::GROUP),
-        (set.laplace_drop, laplace_drop::GROUP),
-        (set.poiseuille, poiseuille::GROUP),
-        (set.taylor_green, taylor_green::GROUP),
-        (set.capillary_bridge, capillary_bridge::GROUP),
-        (set.four_discs, four_discs::GROUP),
-        (set.drop_on_disc, drop_on_disc::GROUP),
-        (set.oscillating_drop, oscillating_drop::GROUP),
-        (set.shear_drop, shear_drop::GROUP),
-        (set.capillary_wave, capillary_wave::GROUP),
-        (set.rising_bubble, rising_bubble::GROUP),
-        (set.layered_poiseuille, layered_poiseuille::GROUP),
-        (set.cavity, cavity::GROUP),
-        (set.cylinder_array, cylinder_array::GROUP),
-        (set.throat_entry, throat_entry::GROUP),
-        (set.jurin, jurin::GROUP),
-        (set.moving_drop, moving_drop::GROUP),
-        (set.spreading, spreading::GROUP),
-        (set.slit_filling, slit_filling::GROUP),
-        (set.capillary_rise, capillary_rise::GROUP),
+        (set.sessile_drop, Group::with_columns(sessile_drop::columns, sessile_drop::measures)),
+        (set.laplace_drop, Group::of(laplace_drop::measures)),
+        (set.poiseuille, Group::of(poiseuille::measures)),
+        (set.taylor_green, Group::of(taylor_green::measures)),
+        (set.capillary_bridge, Group::of(capillary_bridge::measures)),
+        (set.four_discs, Group::of(four_discs::measures)),
+        (set.drop_on_disc, Group::of(drop_on_disc::measures)),
+        (set.oscillating_drop, Group::with_columns(oscillating_drop::columns, oscillating_drop::measures)),
+        (set.shear_drop, Group::with_columns(oscillating_drop::columns, shear_drop::measures)),
+        (set.capillary_wave, Group::with_columns(capillary_wave::columns, capillary_wave::measures)),
+        (set.rising_bubble, Group::with_columns(rising_bubble::columns, rising_bubble::measures)),
+        (set.layered_poiseuille, Group::of(layered_poiseuille::measures)),
+        (set.cavity, Group::of(cavity::measures)),
+        (set.cylinder_array, Group::of(cylinder_array::measures)),
+        (set.throat_entry, Group::of(throat_entry::measures)),
+        (set.jurin, Group::of(jurin::measures)),
+        (
+            set.moving_drop,
+            Group {
+                warnings: force_balance::warnings,
+                ..Group::with_columns(moving_drop::columns, moving_drop::measures)
+            },
+        ),
+        (set.spreading, Group::with_columns(spreading::columns, spreading::measures)),
+        (set.slit_filling, Group::with_columns(slit_filling::columns, slit_filling::measures)),
+        (set.capillary_rise, Group::with_columns(capillary_rise::columns, capillary_rise::measures)),
     ];
     all.into_iter().filter(|(is_requested, _)| *is_requested).map(|(_, group)| group).collect()
 }

@@ -12,9 +12,9 @@ use crate::interface::meniscus_ends::{MeniscusEnd, ends_under_force};
 use crate::interface::polyline::Polyline;
 use crate::interface::wall::WallPoint;
 use crate::math::Vec2;
-use crate::solver::{Measure, Series};
+use crate::solver::{Measure, Series, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure, stream};
+use crate::sph::measures::{Columns, Subject, stream};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::wetting::lines::{TrackedLine, nearest};
@@ -28,9 +28,6 @@ const SAME_LINE: f64 = 6.0;
 
 /// A body force or a stream whose part along the wall is below this fraction does not define the direction ahead.
 const DRIVEN: f64 = 1e-3;
-
-/// Columns and measures of its table `[sph.measure.moving-drop]`.
-pub(crate) const GROUP: Group = Group { columns, measures, warnings: force_balance::warnings };
 
 /// Means over the advancing and over the receding lines.
 struct Ends {
@@ -106,7 +103,7 @@ fn forces(flow: &Flow) -> [Vec2; 2] {
 }
 
 /// Angles, displacements and speeds of both ends, and the forces on the drop along the wall.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let nan = f64::NAN;
     let ends = ends(flow, observation).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
     let [[advancing, travel, speed, at_wall], [receding, travel_behind, speed_behind, at_wall_behind]] = ends.lines;
@@ -144,15 +141,15 @@ fn last_slope(series: &Series, column: &str) -> f64 {
     up / down
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.config.method;
     let fit = "static meniscus under the body force fitted to the half of the contour next to the line (a meniscus that moves as a \
                whole: to all of it), 2h from the wall left out; mean over the last quarter of the records";
     let (advancing, advancing_scatter) = last_mean(s.series, "advancing_angle_deg");
     let (receding, receding_scatter) = last_mean(s.series, "receding_angle_deg");
     let mut found = vec![
-        measure("advancing-angle-deg", advancing, "deg", Some(advancing_scatter), fit),
-        measure("receding-angle-deg", receding, "deg", Some(receding_scatter), fit),
+        measure("advancing-angle-deg", advancing, "deg").by(fit).with_uncertainty(advancing_scatter),
+        measure("receding-angle-deg", receding, "deg").by(fit).with_uncertainty(receding_scatter),
     ];
     // Speeds are along ν_ns, which points backwards at the receding end; here ahead is positive.
     let front = last_mean(s.series, "advancing_speed_m_per_s");
@@ -164,22 +161,19 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let capillary = |speed: f64| speed * m.wetting_fluid.viscosity / m.tension;
     let over = "viscosity of the wetting phase times the speed of the line over the tension";
     found.extend([
-        measure("advancing-speed-m-per-s", front.0, "m/s", Some(front.1), from_velocity),
-        measure("receding-speed-m-per-s", -back.0, "m/s", Some(back.1), from_velocity),
-        measure("advancing-way-m-per-s", speeds[0], "m/s", None, from_positions),
-        measure("receding-way-m-per-s", speeds[1], "m/s", None, from_positions),
-        measure("advancing-capillary-number", capillary(front.0), "", Some(capillary(front.1)), over),
-        measure("receding-capillary-number", -capillary(back.0), "", Some(capillary(back.1)), over),
+        measure("advancing-speed-m-per-s", front.0, "m/s").by(from_velocity).with_uncertainty(front.1),
+        measure("receding-speed-m-per-s", -back.0, "m/s").by(from_velocity).with_uncertainty(back.1),
+        measure("advancing-way-m-per-s", speeds[0], "m/s").by(from_positions),
+        measure("receding-way-m-per-s", speeds[1], "m/s").by(from_positions),
+        measure("advancing-capillary-number", capillary(front.0), "").by(over).with_uncertainty(capillary(front.1)),
+        measure("receding-capillary-number", -capillary(back.0), "").by(over).with_uncertainty(capillary(back.1)),
     ]);
     found.extend(force_balance::measures(s));
     let gone =
         s.series.column("time_s").zip(s.series.column("wetted_length_m")).find(|(_, length)| *length < m.spacing);
-    found.push(measure(
-        "detachment-time-s",
-        gone.map_or(f64::NAN, |(time, _)| time),
-        "s",
-        None,
-        "first record at which less wall than a spacing is wetted; not measured: the drop stays on the wall",
-    ));
+    found.push(
+        measure("detachment-time-s", gone.map_or(f64::NAN, |(time, _)| time), "s")
+            .by("first record at which less wall than a spacing is wetted; not measured: the drop stays on the wall"),
+    );
     found
 }

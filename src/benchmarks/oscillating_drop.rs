@@ -10,13 +10,10 @@ use super::damped;
 use super::moments::Moments;
 use super::series::pairs;
 use super::waves::inverse_laplace;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
-
-/// Columns and measures of its table `[sph.measure.oscillating-drop]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A free drop in a fluid of equal density and viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +97,7 @@ pub(super) fn drop(s: &Subject) -> OscillatingDrop {
 ///
 /// The solution is fitted in the same way at the same times: besides the elliptic mode it has a part with algebraic decay, which changes the half periods of
 /// a viscous drop by some percent.
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (m, drop) = (&s.flow.config.method, drop(s));
     let inviscid = drop.frequency();
     let (times, values) = pairs(s.series, "elongation");
@@ -119,10 +116,12 @@ fn measures(s: &Subject) -> Vec<Measure> {
         "damped oscillation fitted to the elongation of the wetting phase along x, without the first quarter period";
     let over = "over that of the linear viscous solution for a drop in an equal fluid, fitted at the same times";
     vec![
-        measure("period-s", period, "s", fit.map(|fit| period * fit.errors[0] / fit.frequency), method),
-        measure("decay-rate", decay, "1/s", fit.map(|fit| fit.errors[1]), method),
-        measure("period-ratio", exact.map_or(f64::NAN, |e| period * e.frequency / TAU), "", None, over),
-        measure("decay-rate-ratio", exact.map_or(f64::NAN, |e| decay / e.decay), "", None, over),
+        measure("period-s", period, "s")
+            .by(method)
+            .with_uncertainty(fit.map(|fit| period * fit.errors[0] / fit.frequency)),
+        measure("decay-rate", decay, "1/s").by(method).with_uncertainty(fit.map(|fit| fit.errors[1])),
+        measure("period-ratio", exact.map_or(f64::NAN, |e| period * e.frequency / TAU), "").by(over),
+        measure("decay-rate-ratio", exact.map_or(f64::NAN, |e| decay / e.decay), "").by(over),
     ]
 }
 

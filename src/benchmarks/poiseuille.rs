@@ -5,12 +5,9 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::analysis::roots::bisect;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 use crate::sph::open::{Drive, OpenSide};
-
-/// Measures of its table `[sph.measure.poiseuille]`.
-pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Flow between plates at y = 0 and y = H, driven by a body force per volume.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,7 +76,7 @@ fn force(s: &Subject) -> (f64, bool) {
     (weight + (pressure(0) - pressure(1)) / size.x, true)
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds) = (s.flow, s.flow.config.domain.bounds);
     let fluid = flow.config.method.wetting_fluid;
     let (force, starts_up) = force(s);
@@ -113,8 +110,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
                   the steady parabola";
     let method_of_slip = "b of the parabola a (y (H - y) + H b) fitted to the velocities at the end; of a steady flow";
     vec![
-        measure("velocity-l2-error", (error / size).sqrt(), "", None, method),
-        measure("slip-length-m", slip, "m", None, method_of_slip),
+        measure("velocity-l2-error", (error / size).sqrt(), "").by(method),
+        measure("slip-length-m", slip, "m").by(method_of_slip),
     ]
 }
 

@@ -6,17 +6,14 @@ use super::moments::Moments;
 use super::series::{Extremum, extremum, pairs};
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
-use crate::solver::{Measure, Series};
+use crate::solver::{Measure, Series, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
-/// Columns and measures of its table `[sph.measure.rising-bubble]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
-
 /// Height of the center, mean rise velocity, and circularity.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let center = Moments::of_wetting_phase(flow).center;
     vec![
         ("bubble_center_m", center.dot(&up(flow))),
@@ -52,33 +49,20 @@ fn turn(series: &Series, column: &str, sign: f64) -> Extremum {
     extremum(&times, &values, row.unwrap_or(values.len()))
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let fastest = turn(s.series, "bubble_speed_m_per_s", 1.0);
     let least = turn(s.series, "bubble_circularity", -1.0);
     let between = "over all records, by the parabola through the three records there";
     vec![
-        measure(
-            "rise-center-m",
-            s.series.column("bubble_center_m").last().unwrap_or(f64::NAN),
-            "m",
-            None,
-            "center of the wetting particles against gravity at the end",
-        ),
-        measure(
-            "max-rise-velocity",
-            fastest.value,
-            "m/s",
-            Some(fastest.value_error),
-            &format!("largest mean speed of the wetting particles against gravity {between}"),
-        ),
-        measure(
-            "min-circularity",
-            least.value,
-            "",
-            Some(least.value_error),
-            &format!(
+        measure("rise-center-m", s.series.column("bubble_center_m").last().unwrap_or(f64::NAN), "m")
+            .by("center of the wetting particles against gravity at the end"),
+        measure("max-rise-velocity", fastest.value, "m/s")
+            .by(format!("largest mean speed of the wetting particles against gravity {between}"))
+            .with_uncertainty(fastest.value_error),
+        measure("min-circularity", least.value, "")
+            .by(format!(
                 "least circumference of the circle of equal area over the length of the c = 0.5 contour {between}"
-            ),
-        ),
+            ))
+            .with_uncertainty(least.value_error),
     ]
 }

@@ -9,14 +9,11 @@ use crate::analysis::roots::bisect;
 use crate::interface::cap::cap;
 use crate::interface::contact::{ACCURACY, ContactLine};
 use crate::math::Vec2;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::domain::{ImageVelocity, Mirror};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
-
-/// Columns and measures of its table `[sph.measure.sessile-drop]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 const BASE: &str = "base_m";
 const HEIGHT: &str = "height_m";
@@ -168,12 +165,12 @@ fn areas(s: &Subject) -> [f64; 2] {
     [whole * s.observed.areas.wetting, whole * s.observed.areas.non_wetting]
 }
 
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let Extent { base, height } = Extent::of(flow, observation);
     vec![(BASE, base.value), (HEIGHT, height.value)]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let Extent { base, height } = Extent::of(s.flow, s.observed);
     let of_base = "distance of the two contact points of the fitted meniscus";
     let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";
@@ -183,11 +180,15 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let over_height = |length: f64| length / exact.height;
     let [base_bar, height_bar] = [base, height].map(|length| length.uncertainty);
     vec![
-        measure("base-m", base.value, "m", Some(base_bar), of_base).moving_with(BASE, 1.0),
-        measure("height-m", height.value, "m", Some(height_bar), of_height).moving_with(HEIGHT, 1.0),
-        measure("base-ratio", over_base(base.value), "", Some(over_base(base_bar)), &of_base_ratio)
+        measure("base-m", base.value, "m").by(of_base).with_uncertainty(base_bar).moving_with(BASE, 1.0),
+        measure("height-m", height.value, "m").by(of_height).with_uncertainty(height_bar).moving_with(HEIGHT, 1.0),
+        measure("base-ratio", over_base(base.value), "")
+            .by(&of_base_ratio)
+            .with_uncertainty(over_base(base_bar))
             .moving_with(BASE, over_base(1.0)),
-        measure("height-ratio", over_height(height.value), "", Some(over_height(height_bar)), &of_height_ratio)
+        measure("height-ratio", over_height(height.value), "")
+            .by(&of_height_ratio)
+            .with_uncertainty(over_height(height_bar))
             .moving_with(HEIGHT, over_height(1.0)),
     ]
 }

@@ -1,16 +1,13 @@
 //! Filling of a slit between two open sides by the wetting phase (C5 of the benchmarks).
 
 use super::series::pairs;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::domain::ImageVelocity;
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
-
-/// Columns and measures of its table `[sph.measure.slit-filling]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A slit with a wetting liquid behind its meniscus and another fluid ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,7 +79,7 @@ fn across(flow: &Flow, side: &OpenSide) -> f64 {
 }
 
 /// `filled_length_m`: area of the wetting phase over the width.
-fn columns(flow: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
     let length = entry(flow).map_or(f64::NAN, |side| observation.areas.wetting / across(flow, side));
     vec![("filled_length_m", length)]
 }
@@ -105,7 +102,7 @@ fn law(s: &Subject) -> Option<SlitFilling> {
     })
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let Some(law) = law(s) else { return vec![] };
     let (times, lengths) = pairs(s.series, "filled_length_m");
     let Some((&first, &last)) = lengths.first().zip(lengths.last()) else { return vec![] };
@@ -114,21 +111,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let worst = lengths.iter().zip(&exact).map(|(found, exact)| (found - exact).abs()).fold(0.0, f64::max);
     let method = "area of the wetting phase over the width; exact: both columns with the friction of a parabola and the static angle";
     vec![
-        measure("filled-length-m", last, "m", None, "area of the wetting phase over the width, at the end"),
-        measure(
-            "filling-ratio",
-            (last - first) / advance,
-            "",
-            None,
-            &format!("advance of the meniscus over the exact one; {method}"),
-        ),
-        measure(
-            "filling-error",
-            worst / advance,
-            "",
-            None,
-            &format!("largest difference over all records, over the whole advance; {method}"),
-        ),
+        measure("filled-length-m", last, "m").by("area of the wetting phase over the width, at the end"),
+        measure("filling-ratio", (last - first) / advance, "")
+            .by(format!("advance of the meniscus over the exact one; {method}")),
+        measure("filling-error", worst / advance, "")
+            .by(format!("largest difference over all records, over the whole advance; {method}")),
     ]
 }
 

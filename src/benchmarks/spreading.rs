@@ -1,22 +1,19 @@
 //! The exponent of a drop spreading on a wall (C13 of the benchmarks; Tanner's law in two dimensions: 1/7).
 
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
-use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::measures::{Columns, Subject};
 use crate::sph::observe::Observation;
 
-/// Columns and measures of its table `[sph.measure.spreading]`.
-pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
-
 /// Distance between the two contact points in m.
-fn columns(_: &Flow, observation: &Observation) -> Columns {
+pub(super) fn columns(_: &Flow, observation: &Observation) -> Columns {
     let lines: Vec<_> = observation.lines_with_angle().collect();
     // Contours continue across periodic sides, so the distance of the two ends of a drop needs no minimum image.
     let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
     vec![("base_m", base)]
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let end = s.series.column("time_s").last().unwrap_or(f64::NAN);
     let all = s.series.column("time_s").zip(s.series.column("base_m"));
     let decade: Vec<(f64, f64)> =
@@ -37,5 +34,5 @@ fn measures(s: &Subject) -> Vec<Measure> {
         .zip(&weights)
         .fold((0.0, 0.0), |(up, down), (p, w)| (up + w * (p.0 - x) * (p.1 - y), down + w * (p.0 - x).powi(2)));
     let method = "slope of the logarithm of the base over that of the time in the last decade of the run, all of it weighed alike";
-    vec![measure("spreading-exponent", up / down, "", None, method)]
+    vec![measure("spreading-exponent", up / down, "").by(method)]
 }

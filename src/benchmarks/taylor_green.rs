@@ -2,18 +2,15 @@
 
 use std::f64::consts::PI;
 
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
-
-/// Measures of its table `[sph.measure.taylor-green]`.
-pub(crate) const GROUP: Group = Group::of(measures);
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 
 /// Speed of a Taylor-Green vortex of period `length` (m) relative to its initial speed: exp(-8 pi² nu t/L²).
 pub(crate) fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
     (-8.0 * PI * PI * kinematic_viscosity * time / (length * length)).exp()
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let flow = s.flow;
     let fluid = flow.config.method.wetting_fluid;
     let mut energy = s.series.column("kinetic_energy_J_per_m");
@@ -22,7 +19,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let exact = taylor_green_decay(fluid.viscosity / fluid.density, length, flow.state.time).ln();
     let error = 0.5 * (last / first).ln() / exact - 1.0;
     let method = "rate of decay of the square root of the kinetic energy over the run, over 8 pi^2 nu/L^2, less 1";
-    vec![measure("decay-rate-error", error, "", None, method)]
+    vec![measure("decay-rate-error", error, "").by(method)]
 }
 
 #[cfg(test)]

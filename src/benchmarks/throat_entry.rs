@@ -3,11 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::analysis::roots::bisect;
-use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
-
-/// Measures of its table `[sph.measure.throat-entry]`.
-pub(crate) const GROUP: Group = Group::of(measures);
+use crate::solver::{Measure, measure};
+use crate::sph::measures::Subject;
 
 /// Entry curvature p_c*/sigma in 1/m of the throat between two discs with `radii` (m) and centers `distance` (m) apart.
 ///
@@ -19,16 +16,13 @@ pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Opt
     Some(1.0 / r)
 }
 
-fn measures(s: &Subject) -> Vec<Measure> {
+pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, h) = (s.flow.config.method.tension, s.flow.config.method.kernel.h);
     let found = &s.observed.capillary_pressure;
-    let pressure = measure(
-        "entry-pressure-Pa",
-        found.value,
-        "Pa",
-        Some(found.uncertainty(tension, h)),
-        "capillary pressure p_n - p_w at the end: the entry pressure where the invading phase fills up to its meniscus of largest curvature",
-    );
+    let pressure = measure("entry-pressure-Pa", found.value, "Pa")
+        .by("capillary pressure p_n - p_w at the end: the entry pressure where the invading phase fills up to its \
+             meniscus of largest curvature")
+        .with_uncertainty(found.uncertainty(tension, h));
     let ([a, b], Some(wetting)) = (s.discs, s.flow.config.method.wetting) else { return vec![pressure] };
     let distance = (b.center - a.center).norm();
     // The phase at the larger pressure is the invading one; the angle is that through the other one.
@@ -43,20 +37,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let curvature = fitted.iter().sum::<f64>() / fitted.len() as f64;
     vec![
         pressure,
-        measure(
-            "entry-pressure-ratio",
-            ratio(found.value),
-            "",
-            Some(ratio(found.uncertainty(tension, h)).abs()),
-            "capillary pressure at the end over the exact entry pressure of the throat, tension/r*",
-        ),
-        measure(
-            "entry-curvature-ratio",
-            exact.map_or(f64::NAN, |exact| curvature / exact),
-            "",
-            None,
-            "curvature of the fitted meniscus at the end over 1/r*",
-        ),
+        measure("entry-pressure-ratio", ratio(found.value), "")
+            .by("capillary pressure at the end over the exact entry pressure of the throat, tension/r*")
+            .with_uncertainty(ratio(found.uncertainty(tension, h)).abs()),
+        measure("entry-curvature-ratio", exact.map_or(f64::NAN, |exact| curvature / exact), "")
+            .by("curvature of the fitted meniscus at the end over 1/r*"),
     ]
 }
 

@@ -15,12 +15,6 @@ pub struct Offer {
     pub is_given: bool,
 }
 
-impl Offer {
-    pub(super) fn new(names: &'static [&'static str], given_by: &str, is_given: bool) -> Self {
-        Self { names, given_by: given_by.to_owned(), is_given }
-    }
-}
-
 /// The set of groups, and the table of a case file.
 macro_rules! groups {
     ($(#[doc = $doc:literal] pub $group:ident: [$($name:literal,)*],)*) => {

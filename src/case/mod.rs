@@ -14,7 +14,6 @@ mod kind;
 mod load;
 mod magnitude;
 mod measure_groups;
-mod measure_names;
 pub mod measures;
 pub mod network;
 mod network_options;

@@ -165,26 +165,21 @@ fn kinds_of_sides(geometry: &Geometry) -> String {
 fn measures(geometry: &Geometry, depth: Option<f64>) -> Vec<Measure> {
     let porosity = geometry.porosity();
     let mut found = vec![
-        Measure {
-            uncertainty: Some(porosity.uncertainty),
-            ..measure("porosity", porosity.value, "", "share of the domain that is not solid, exact along the outline")
-        },
-        measure(
-            "specific-surface-per-m",
-            geometry.specific_surface(),
-            "1/m",
-            "wall length over the area of the domain",
-        ),
+        measure("porosity", porosity.value, "")
+            .by("share of the domain that is not solid, exact along the outline")
+            .with_uncertainty(porosity.uncertainty),
+        measure("specific-surface-per-m", geometry.specific_surface(), "1/m")
+            .by("wall length over the area of the domain"),
     ];
     found.extend(depth.into_iter().flat_map(|depth| of_chip(geometry, depth)));
     for (number, throat) in throats(geometry).iter().take(THROATS).enumerate() {
         // Adding zero turns minus zero into zero.
         let (c, name) = (throat.center.map(|v| v + 0.0), format!("throat-{}-width-m", number + 1));
         let method = format!("shortest distance from wall to wall, middle at ({:.4e}, {:.4e}) m", c.x, c.y);
-        found.push(measure(&name, throat.width, "m", &method));
+        found.push(measure(&name, throat.width, "m").by(&method));
         if let Some(depth) = depth {
             let name = format!("throat-{}-width-over-depth", number + 1);
-            found.push(measure(&name, throat.width / depth, "", "the same over the depth"));
+            found.push(measure(&name, throat.width / depth, "").by("the same over the depth"));
         }
     }
     found
@@ -197,10 +192,10 @@ fn of_chip(geometry: &Geometry, depth: f64) -> [Measure; 4] {
     let walls = "area of walls, floor and lid over the volume of the domain";
     let bound = "porosity times depth squared over 12: no permeability of the flow averaged over the depth is larger";
     [
-        measure("depth-m", depth, "m", "distance of floor and lid"),
-        measure("pore-volume-m3", porosity * area * depth, "m3", "area of the pore times the depth"),
-        measure("specific-surface-with-plates-per-m", with_plates, "1/m", walls),
-        measure("permeability-bound-m2", porosity * depth * depth / 12.0, "m2", bound),
+        measure("depth-m", depth, "m").by("distance of floor and lid"),
+        measure("pore-volume-m3", porosity * area * depth, "m3").by("area of the pore times the depth"),
+        measure("specific-surface-with-plates-per-m", with_plates, "1/m").by(walls),
+        measure("permeability-bound-m2", porosity * depth * depth / 12.0, "m2").by(bound),
     ]
 }
 

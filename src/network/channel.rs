@@ -207,7 +207,7 @@ impl Channel {
             }
             let Some(rates) = self.rates(positions, &arc) else { break };
             let scale = arc.h / (2.0 * arc.sin.abs() + (arc.h * rates.turn.abs()).sqrt());
-            let Some(step) = self.step(positions, (scale / STEPS).min(ahead), center, (&arc, &rates)) else { break };
+            let Some(step) = self.step(positions, (scale / STEPS).min(ahead), center, &arc, &rates) else { break };
             sum += step.resistance;
             let Some((entered, is_concave)) = self.entered(step.positions, step.ended) else { break };
             if is_concave {
@@ -298,7 +298,7 @@ impl Channel {
     }
 
     /// One Runge-Kutta step, shortened to the end of a piece or to the position abreast of the center.
-    fn step(&self, positions: [Position; 2], longest: f64, center: Vec2, (arc, first): (&Arc, &Rates)) -> Option<Step> {
+    fn step(&self, positions: [Position; 2], longest: f64, center: Vec2, arc: &Arc, first: &Rates) -> Option<Step> {
         let mut length = longest;
         let end = |wall: usize| self.walls[wall].pieces[positions[wall].piece].end;
         for _ in 0..MOST_CORRECTIONS {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::displacement::{Beginning, Displacement, Division, EventKind, Phase};
 use super::films::{CurvePoint, Films};
 use super::graph::{Network, Pores};
-pub(crate) use super::half_cycle::{End, HalfCycle};
+pub(crate) use super::half_cycle::HalfCycle;
 use super::moment::Moment;
 use super::region::Counted;
 pub(crate) use crate::case::FluidPhase;
@@ -58,33 +58,46 @@ pub(crate) struct Outcome {
     pub(crate) last: Option<f64>,
 }
 
+/// What has happened in the half cycles so far.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Record {
+    /// All events.
+    pub(crate) history: Vec<Entry>,
+    /// The filling of each element in the present half cycle.
+    pub(crate) invasions: Vec<Option<Invasion>>,
+    /// Summaries of the half cycles that have started.
+    pub(crate) outcomes: Vec<Outcome>,
+    /// The curve of capillary pressure over saturation, with films that follow the pressure.
+    pub(crate) curve: Vec<CurvePoint>,
+    /// The moment after first breakthrough.
+    breakthrough: Option<Arc<Moment>>,
+}
+
 /// A displacement in half cycles.
 #[derive(Debug, Clone)]
 pub struct Cycles {
-    network: Arc<Network>,
-    pores: Arc<Pores>,
     half_cycles: Vec<HalfCycle>,
     initial: Option<Arc<Beginning>>,
-    pub(super) displacement: Displacement,
-    breakthrough: Option<Arc<Moment>>,
     pore_area: f64,
+    /// The areas to which saturations refer.
+    pub(crate) counted: Arc<Counted>,
+    /// The displacement of the present half cycle.
+    pub(crate) displacement: Displacement,
     pub(super) half_cycle: usize,
-    is_done: bool,
-    steps: u64,
+    /// Whether the displacement is over.
+    pub(crate) is_done: bool,
+    /// Number of calls of [`advance`](Self::advance) up to this state.
+    pub(crate) steps: u64,
     /// Area of the wetting phase in the whole domain and in the region of saturations.
     wetting_area: f64,
     pub(super) counted_wetting: f64,
-    pub(super) counted: Arc<Counted>,
+    /// Displaced area, now and at the start of the present half cycle.
     displaced_area: f64,
-    history: Vec<Entry>,
-    invasions: Vec<Option<Invasion>>,
-    pub(super) outcomes: Vec<Outcome>,
-    /// Displaced area at the start of the present half cycle.
     displaced_before: f64,
     /// The films in corners, and their volume over the depth in m².
     pub(super) films: Option<Films>,
     pub(super) film_area: f64,
-    pub(super) curve: Vec<CurvePoint>,
+    pub(crate) record: Record,
 }
 
 /// Rounding error of saturations, which are sums of areas.
@@ -104,18 +117,19 @@ impl Cycles {
     /// The start of the first half cycle, in a pore space full of the defending phase or with the phases of `initial`; `None` without half
     /// cycles. `division`, if given, is that of the network for the events of the half cycles. Saturations refer to the areas of `count`.
     pub(crate) fn new(
-        network: Arc<Network>,
-        pores: Arc<Pores>,
+        network: &Network,
+        pores: &Pores,
         half_cycles: Vec<HalfCycle>,
-        (initial, division): (Option<Arc<Beginning>>, Option<&Division>),
+        initial: Option<Arc<Beginning>>,
+        division: Option<&Division>,
         count: impl FnOnce(&Displacement) -> Counted,
     ) -> Option<Self> {
         let first = half_cycles.first()?;
         let conditions = first.conditions.clone();
         let displacement = match (&initial, division) {
-            (Some(initial), _) => Displacement::beginning(&network, &pores, conditions, initial),
+            (Some(initial), _) => Displacement::beginning(network, pores, conditions, initial),
             (None, Some(division)) => Displacement::within(division, conditions),
-            (None, None) => Displacement::new(&network, &pores, conditions),
+            (None, None) => Displacement::new(network, pores, conditions),
         };
         let area = |element: usize| displacement.elements()[element].area;
         let elements = displacement.elements().len();
@@ -135,12 +149,8 @@ impl Cycles {
         let mut cycles = Self {
             films,
             film_area: 0.0,
-            curve: Vec::new(),
-            network,
-            pores,
             initial,
             displacement,
-            breakthrough: None,
             pore_area,
             half_cycle: 0,
             is_done: false,
@@ -149,10 +159,8 @@ impl Cycles {
             counted_wetting,
             counted: Arc::new(counted),
             displaced_area: 0.0,
-            history: Vec::new(),
-            invasions: vec![None; elements],
-            outcomes: Vec::new(),
             displaced_before: 0.0,
+            record: Record { invasions: vec![None; elements], ..Record::default() },
             half_cycles,
         };
         cycles.begin(&before);
@@ -163,7 +171,7 @@ impl Cycles {
     fn begin(&mut self, before: &[Phase]) {
         let saturation = self.saturation();
         self.displaced_before = self.displaced_area;
-        self.invasions.iter_mut().for_each(|invasion| *invasion = None);
+        self.record.invasions.iter_mut().for_each(|invasion| *invasion = None);
         let filled: Vec<usize> = (0..before.len())
             .filter(|&element| {
                 before[element] == Phase::Defending && self.displacement.phase(element) == Phase::Invading
@@ -172,27 +180,24 @@ impl Cycles {
         self.displace(&filled);
         let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
         for element in filled {
-            self.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
+            self.record.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         }
         self.update_films();
         let first_saturation = [saturation, self.saturation()];
         // Openings have no entry pressure, so there is none to record.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
         let first_film_saturation = self.film_saturation();
-        self.outcomes.push(Outcome { first_saturation, first_film_saturation, breakthrough, ..Outcome::default() });
-    }
-
-    /// The areas to which saturations refer.
-    pub(crate) fn counted(&self) -> &Counted {
-        &self.counted
+        self.record.outcomes.push(Outcome {
+            first_saturation,
+            first_film_saturation,
+            breakthrough,
+            ..Outcome::default()
+        });
     }
 
     /// Saturation of the invading phase.
     fn invading_saturation(&self) -> f64 {
-        match self.half_cycle().invading {
-            FluidPhase::Wetting => self.saturation(),
-            FluidPhase::NonWetting => 1.0 - self.saturation(),
-        }
+        self.half_cycle().invading.saturation(self.saturation())
     }
 
     /// Adds the areas of elements that the invading phase filled.
@@ -204,12 +209,10 @@ impl Cycles {
         self.counted_wetting += sign * elements.iter().map(|&element| self.counted.areas[element]).sum::<f64>();
     }
 
-    /// The same displacement in its initial state.
-    pub(crate) fn restarted(&self) -> Option<Self> {
-        let initial = self.initial.clone();
-        let counted = Counted::clone(&self.counted);
-        let (network, pores) = (Arc::clone(&self.network), Arc::clone(&self.pores));
-        Self::new(network, pores, self.half_cycles.clone(), (initial, None), |_| counted)
+    /// The same displacement in its initial state, in its network.
+    pub(crate) fn restarted(&self, network: &Network, pores: &Pores) -> Option<Self> {
+        let counted = |_: &Displacement| Counted::clone(&self.counted);
+        Self::new(network, pores, self.half_cycles.clone(), self.initial.clone(), None, counted)
     }
 
     /// Performs the next event, or starts the next half cycle; `None` if the displacement is over.
@@ -229,22 +232,22 @@ impl Cycles {
         self.displace(&event.elements);
         self.update_films();
         let half = &self.half_cycles[self.half_cycle];
-        let (curvature, half_cycle) = (half.towards_wetting(event.curvature), self.half_cycle);
-        let (saturation, applied) = (self.saturation(), half.towards_wetting(event.applied));
+        let (curvature, half_cycle) = (half.invading.towards_wetting(event.curvature), self.half_cycle);
+        let (saturation, applied) = (self.saturation(), half.invading.towards_wetting(event.applied));
         let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
-        self.outcomes[self.half_cycle].events += 1;
-        let sequence = self.outcomes[self.half_cycle].events;
+        self.record.outcomes[self.half_cycle].events += 1;
+        let sequence = self.record.outcomes[self.half_cycle].events;
         for &element in &event.elements {
-            self.invasions[element] = Some(Invasion { sequence, applied, displaced });
+            self.record.invasions[element] = Some(Invasion { sequence, applied, displaced });
         }
-        if self.outcomes[self.half_cycle].breakthrough.is_none() && self.displacement.reached_outlet() {
-            self.outcomes[self.half_cycle].breakthrough = Some((applied, self.invading_saturation()));
+        if self.record.outcomes[self.half_cycle].breakthrough.is_none() && self.displacement.reached_outlet() {
+            self.record.outcomes[self.half_cycle].breakthrough = Some((applied, self.invading_saturation()));
         }
         let film_saturation = self.film_saturation();
         let (kind, throat) = (event.kind, event.throat);
-        self.history.push(Entry { half_cycle, kind, throat, curvature, applied, saturation, film_saturation });
-        if self.breakthrough.is_none() && self.displacement.reached_outlet() {
-            self.breakthrough = Some(Arc::new(self.moment()));
+        self.record.history.push(Entry { half_cycle, kind, throat, curvature, applied, saturation, film_saturation });
+        if self.record.breakthrough.is_none() && self.displacement.reached_outlet() {
+            self.record.breakthrough = Some(Arc::new(self.moment()));
         }
         Some(event.kind.name())
     }
@@ -254,7 +257,7 @@ impl Cycles {
         Moment {
             displacement: self.displacement.clone(),
             half_cycle: self.half_cycle,
-            events: self.outcomes()[self.half_cycle].events,
+            events: self.record.outcomes[self.half_cycle].events,
             applied: self.applied(),
             saturation: tidy(self.wetting_area / self.pore_area),
         }
@@ -262,14 +265,14 @@ impl Cycles {
 
     /// The moment after first breakthrough.
     pub fn breakthrough(&self) -> Option<&Moment> {
-        self.breakthrough.as_deref()
+        self.record.breakthrough.as_deref()
     }
 
     fn has_ended_early(&self) -> bool {
-        let half = self.half_cycle();
-        let share = self.invading_saturation();
-        let has_broken_through = self.outcomes[self.half_cycle].breakthrough.is_some();
-        (half.end.at_breakthrough && has_broken_through) || half.end.at_saturation.is_some_and(|end| share >= end)
+        let HalfCycle { invading, stop, .. } = self.half_cycle();
+        let has_broken_through = self.record.outcomes[self.half_cycle].breakthrough.is_some();
+        let reaches = |wetting: f64| self.invading_saturation() >= invading.saturation(wetting);
+        (stop.breakthrough && has_broken_through) || stop.saturation.is_some_and(reaches)
     }
 
     fn turn(&mut self) -> Option<&'static str> {
@@ -281,7 +284,7 @@ impl Cycles {
             Phase::Defending => Phase::Invading,
             Phase::Invading => Phase::Defending,
         };
-        let before: Vec<Phase> = (0..self.invasions.len()).map(reversed).collect();
+        let before: Vec<Phase> = (0..self.record.invasions.len()).map(reversed).collect();
         self.half_cycle += 1;
         self.displacement = self.displacement.clone().reverse(next.conditions.clone());
         let terms = next.films.clone();
@@ -305,21 +308,6 @@ impl Cycles {
         &self.half_cycles
     }
 
-    /// Summaries of those that have started.
-    pub(crate) fn outcomes(&self) -> &[Outcome] {
-        &self.outcomes
-    }
-
-    /// Whether the displacement is over.
-    pub(crate) fn is_done(&self) -> bool {
-        self.is_done
-    }
-
-    /// Number of calls of [`advance`](Self::advance) up to this state.
-    pub(crate) fn steps(&self) -> u64 {
-        self.steps
-    }
-
     /// Displaced pore volumes of all half cycles, a sum of areas over the pore area.
     pub(crate) fn displaced(&self) -> f64 {
         self.displaced_area / self.pore_area
@@ -339,26 +327,13 @@ impl Cycles {
 
     /// All events so far.
     pub fn history(&self) -> &[Entry] {
-        &self.history
+        &self.record.history
     }
 
     /// The applied curvature towards the wetting phase in 1/m; `None` before the first event of a half cycle.
     pub(crate) fn applied(&self) -> Option<f64> {
-        let last = self.outcomes.get(self.half_cycle).and_then(|outcome| outcome.last);
-        last.or_else(|| self.last_event())
-    }
-
-    fn last_event(&self) -> Option<f64> {
-        self.history.last().filter(|entry| entry.half_cycle == self.half_cycle).map(|entry| entry.applied)
-    }
-
-    /// The displacement of the present half cycle.
-    pub(crate) fn displacement(&self) -> &Displacement {
-        &self.displacement
-    }
-
-    /// The filling of each element in the present half cycle.
-    pub(crate) fn invasions(&self) -> &[Option<Invasion>] {
-        &self.invasions
+        let last = self.record.outcomes.get(self.half_cycle).and_then(|outcome| outcome.last);
+        let event = self.record.history.last().filter(|entry| entry.half_cycle == self.half_cycle);
+        last.or(event.map(|entry| entry.applied))
     }
 }

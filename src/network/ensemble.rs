@@ -11,7 +11,6 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Element, Phase};
 use super::dynamic::solver::DynamicSolver;
 use super::films::CurvePoint;
-use super::flow::along;
 use super::locate::{inner_point, located};
 use super::measures::Costly;
 use super::model::{Configuration, Model};
@@ -93,17 +92,10 @@ impl Sample {
     ///
     /// # Errors
     /// [`SetupError`] if there is no such network.
-    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork, costly: Costly) -> Result<Self, SetupError> {
-        let mut quasi_static = build_on(ground, wanted, case.depth)?;
-        if costly.permeabilities && case.depth == ground.network.depth {
-            quasi_static.model = quasi_static.model.with_conductances(ground.conductances().to_vec());
-            let found = ground.permeabilities(|| [0, 1].map(|axis| along(&quasi_static.model, axis)));
-            quasi_static.model = quasi_static.model.with_permeabilities(found);
-        }
+    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork) -> Result<Self, SetupError> {
+        let quasi_static = build_on(ground, wanted, case.depth)?;
         Ok(match in_time(wanted, &quasi_static)? {
-            Some((dynamic, invading, end)) => {
-                Self::InTime(Box::new(DynamicSolver::new(quasi_static, dynamic, invading, end)))
-            }
+            Some(solver) => Self::InTime(Box::new(solver)),
             None => Self::QuasiStatic(Box::new(quasi_static)),
         })
     }
@@ -117,7 +109,7 @@ impl Sample {
 
     fn elements(&self) -> &[Element] {
         match self {
-            Self::QuasiStatic(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement().elements()),
+            Self::QuasiStatic(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement.elements()),
             Self::InTime(solver) => solver.elements(),
         }
     }
@@ -129,7 +121,7 @@ impl Sample {
         let processes = match self {
             Self::QuasiStatic(solver) => solver
                 .cycles()
-                .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.name()).collect()),
+                .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.invading.process()).collect()),
             Self::InTime(_) => Vec::new(),
         };
         Reference { config: self.model().config.clone(), elements, probes, processes }
@@ -165,7 +157,7 @@ fn quasi_static(
     if let Some(cycles) = &mut solver.model.cycles {
         let mut half_cycle = 0;
         while cycles.advance().is_some() {
-            if cycles.steps() % BETWEEN_LOOKS == 0 && interrupt.load(Ordering::Relaxed) {
+            if cycles.steps % BETWEEN_LOOKS == 0 && interrupt.load(Ordering::Relaxed) {
                 return None;
             }
             if half_cycle == 0 && cycles.half_cycle_index() == 1 {
@@ -182,7 +174,7 @@ fn quasi_static(
             }
         }
         if invaded.is_empty() {
-            let displacement = cycles.displacement();
+            let displacement = &cycles.displacement;
             invaded = (0..displacement.elements().len()).map(|e| displacement.phase(e) == Phase::Invading).collect();
         }
     }
@@ -197,11 +189,11 @@ fn quasi_static(
 
 /// The elements of the first invading phase just after the end of the first half cycle.
 fn at_turn(cycles: &Cycles) -> Vec<bool> {
-    let displacement = cycles.displacement();
+    let displacement = &cycles.displacement;
     let holds = |element: usize| match displacement.phase(element) {
         Phase::Defending => true,
         // The start of the next half cycle has filled it.
-        Phase::Invading => cycles.invasions()[element].is_some(),
+        Phase::Invading => cycles.record.invasions[element].is_some(),
     };
     (0..displacement.elements().len()).map(holds).collect()
 }
@@ -254,7 +246,7 @@ fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
         let invading = cycles.half_cycles()[half_cycle].invading;
         let first = outcome.first_saturation[1];
         if cycles.has_films() {
-            let points = cycles.curve().iter().filter(|point| point.half_cycle == half_cycle);
+            let points = cycles.record.curve.iter().filter(|point| point.half_cycle == half_cycle);
             let points: Vec<[f64; 2]> =
                 points.map(|point: &CurvePoint| [point.saturation, tension * point.curvature]).collect();
             return at_saturations(invading, first, &points, true);
@@ -264,7 +256,7 @@ fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
             entries.map(|entry| [entry.saturation, config.pressure(invading, entry.applied)]).collect();
         at_saturations(invading, first, &points, false)
     };
-    cycles.outcomes().iter().enumerate().map(of_half).collect()
+    cycles.record.outcomes.iter().enumerate().map(of_half).collect()
 }
 
 /// The pressure at which a half cycle starting at the saturation `first` reaches each saturation. An event reaches all saturations that it

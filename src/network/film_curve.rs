@@ -26,12 +26,12 @@ impl Cycles {
     pub(super) fn set_film_curvature(&mut self, applied: f64) {
         let half = self.half_cycle();
         let Some(films) = &self.films else { return };
-        let to = films.curvature_at(half.towards_wetting(applied));
+        let to = films.curvature_at(half.invading.towards_wetting(applied));
         let points: Vec<CurvePoint> = places_between(films.curvature, to)
             .into_iter()
             .map(|curvature| self.curve_point(curvature, films.area_at(curvature)))
             .collect();
-        self.curve.extend(points);
+        self.record.curve.extend(points);
         if let Some(films) = &mut self.films {
             films.curvature = to;
         }
@@ -45,7 +45,7 @@ impl Cycles {
         let curvature = films.curvature;
         self.film_area = films.area();
         if curvature.is_finite() {
-            self.curve.push(self.curve_point(curvature, self.film_area));
+            self.record.curve.push(self.curve_point(curvature, self.film_area));
         }
     }
 
@@ -62,14 +62,14 @@ impl Cycles {
     pub(super) fn raise_to_final_pressure(&mut self) {
         let half = self.half_cycle();
         let end = half.conditions.largest_curvature;
-        if self.films.is_none() || !end.is_finite() || self.outcomes[self.half_cycle].last.is_some() {
+        if self.films.is_none() || !end.is_finite() || self.record.outcomes[self.half_cycle].last.is_some() {
             return;
         }
-        let applied = half.towards_wetting(end);
+        let applied = half.invading.towards_wetting(end);
         self.set_film_curvature(end);
         self.displacement.apply(end);
         self.update_films();
-        self.outcomes[self.half_cycle].last = Some(applied);
+        self.record.outcomes[self.half_cycle].last = Some(applied);
     }
 
     /// Corner films as a fraction of the pore space.
@@ -80,11 +80,6 @@ impl Cycles {
     /// Whether there are films in corners.
     pub(crate) fn has_films(&self) -> bool {
         self.films.is_some()
-    }
-
-    /// The curve of capillary pressure over saturation, with films that follow the pressure.
-    pub(crate) fn curve(&self) -> &[CurvePoint] {
-        &self.curve
     }
 
     /// Films for pictures and tables.

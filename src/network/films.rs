@@ -31,11 +31,6 @@ impl FilmTerms {
         };
         network.throats.iter().map(throat).collect()
     }
-
-    /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
-    pub(crate) fn curvature(&self, in_plane: f64) -> f64 {
-        self.depth.curvature(in_plane)
-    }
 }
 
 /// A point of the curve of capillary pressure over saturation, with the films at every pressure.
@@ -149,7 +144,7 @@ impl Films {
 
     /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
     pub(crate) fn curvature_at(&self, in_plane: f64) -> f64 {
-        self.terms.curvature(in_plane)
+        self.terms.depth.curvature(in_plane)
     }
 
     /// Volume over the depth in m² of all films that count if (p_n - p_w)/σ were `curvature` in 1/m.

@@ -45,7 +45,7 @@ fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowErro
 pub(crate) fn along(model: &Model, axis: usize) -> f64 {
     let everywhere = || vec![true; model.config.network.regions.len()];
     let find = || drive(&model.config, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
-    model.permeability(axis, || find().unwrap_or(f64::NAN))
+    *model.config.derived.permeabilities[axis].get_or_init(|| find().unwrap_or(f64::NAN))
 }
 
 /// For each region whether the wetting phase holds most of it after the invasions of the last half cycle up to this displaced share, and the saturation.
@@ -53,12 +53,12 @@ fn wetting_regions(config: &Configuration, cycles: &Cycles, displaced: f64) -> (
     let invading = cycles.half_cycle().invading;
     let regions = config.network.regions.len();
     let (mut wetting, mut all) = (vec![0.0; regions], vec![0.0; regions]);
-    let counted = cycles.counted();
+    let counted = &cycles.counted;
     let mut counted_wetting = 0.0;
-    for (index, element) in cycles.displacement().elements().iter().enumerate() {
-        let is_invaded = match &cycles.invasions()[index] {
+    for (index, element) in cycles.displacement.elements().iter().enumerate() {
+        let is_invaded = match &cycles.record.invasions[index] {
             Some(invasion) => invasion.displaced <= displaced,
-            None => cycles.displacement().phase(index) == Phase::Invading,
+            None => cycles.displacement.phase(index) == Phase::Invading,
         };
         all[element.region] += element.area;
         if is_invaded == (invading == FluidPhase::Wetting) {
@@ -82,7 +82,7 @@ pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
     if !(whole > 0.0) {
         return Vec::new();
     }
-    let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
+    let displaced = cycles.record.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     // The initial filling counts as displaced; before it, nothing is.
     let at = |share: &f64| if *share > 0.0 { share * displaced } else { -1.0 };
     let state = |displaced: f64| {

@@ -3,9 +3,9 @@
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use super::conductance::conductances;
 use super::displacement::{Division, Events};
 use super::graph::{Network, Pores};
+use super::model::Derived;
 use super::setup_error::SetupError;
 use crate::case::network::PoreNetwork;
 use crate::case::{Case, SIDES, Side};
@@ -41,8 +41,8 @@ pub(crate) struct Ground {
     /// Wall time of the extraction in s.
     pub(crate) seconds: f64,
     is_shared: bool,
-    conductances: OnceLock<Vec<f64>>,
-    permeabilities: OnceLock<[f64; 2]>,
+    /// What follows from the network at that depth.
+    pub(crate) derived: Arc<Derived>,
     divisions: [OnceLock<Division>; 2],
 }
 
@@ -80,8 +80,7 @@ impl Ground {
             outline: Arc::new(outline),
             seconds: clock.elapsed().as_secs_f64(),
             is_shared: false,
-            conductances: OnceLock::new(),
-            permeabilities: OnceLock::new(),
+            derived: Arc::default(),
             divisions: [const { OnceLock::new() }; 2],
         })
     }
@@ -97,11 +96,6 @@ impl Ground {
         self.is_shared.then(|| self.divisions[usize::from(events == Events::All)].get_or_init(find))
     }
 
-    /// Permeabilities along x and y at the depth of the case for which it was extracted, computed by `find` once.
-    pub(crate) fn permeabilities(&self, find: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
-        *self.permeabilities.get_or_init(find)
-    }
-
     /// The network at a depth in m.
     pub(crate) fn with_depth(&self, depth: Option<f64>) -> Arc<Network> {
         if self.network.depth == depth {
@@ -114,10 +108,5 @@ impl Ground {
     /// Number of walls: shapes and sides.
     pub(crate) fn walls(&self) -> usize {
         self.geometry.shape_count() as usize + SIDES.len()
-    }
-
-    /// The conductances of all throats at the depth of the case for which it was extracted.
-    pub(crate) fn conductances(&self) -> &[f64] {
-        self.conductances.get_or_init(|| conductances(&self.network))
     }
 }

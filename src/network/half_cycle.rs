@@ -3,6 +3,7 @@
 use super::displacement::Conditions;
 use super::films::FilmTerms;
 use crate::case::FluidPhase;
+use crate::case::network::Stop;
 
 impl FluidPhase {
     /// Its name in files.
@@ -22,6 +23,22 @@ impl FluidPhase {
         }
     }
 
+    /// `drainage` or `imbibition`: the process in which this fluid invades.
+    pub(crate) fn process(self) -> &'static str {
+        match self {
+            Self::NonWetting => "drainage",
+            Self::Wetting => "imbibition",
+        }
+    }
+
+    /// The saturation of this fluid from that of the wetting one, or back.
+    pub(crate) fn saturation(self, wetting: f64) -> f64 {
+        match self {
+            Self::NonWetting => 1.0 - wetting,
+            Self::Wetting => wetting,
+        }
+    }
+
     /// The other fluid.
     pub(crate) fn other(self) -> Self {
         match self {
@@ -29,15 +46,6 @@ impl FluidPhase {
             Self::NonWetting => Self::Wetting,
         }
     }
-}
-
-/// Conditions that end a half cycle early.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct End {
-    /// When the invading phase reaches the outlet.
-    pub at_breakthrough: bool,
-    /// At this saturation of the invading phase.
-    pub at_saturation: Option<f64>,
 }
 
 /// One drainage or imbibition.
@@ -48,23 +56,7 @@ pub struct HalfCycle {
     /// Angles, open sides and the largest applied curvature.
     pub conditions: Conditions,
     /// Its early end.
-    pub end: End,
+    pub(crate) stop: Stop,
     /// The corner films, if any.
     pub(crate) films: Option<FilmTerms>,
-}
-
-impl HalfCycle {
-    /// `drainage` or `imbibition`.
-    pub(crate) fn name(&self) -> &'static str {
-        match self.invading {
-            FluidPhase::NonWetting => "drainage",
-            FluidPhase::Wetting => "imbibition",
-        }
-    }
-
-    /// Converts a `curvature` of menisci, positive into the defending phase, to one that is positive into the wetting phase, so that tension
-    /// times it is p_n - p_w.
-    pub(crate) fn towards_wetting(&self, curvature: f64) -> f64 {
-        self.invading.towards_wetting(curvature)
-    }
 }

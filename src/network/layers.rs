@@ -4,7 +4,7 @@ use super::cycles::{FluidPhase, Invasion};
 use super::displacement::Element;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use super::summary::PoreStates;
+use super::summary::pore_states;
 use super::tables::{arms, center, kept, length, pores_of, radius};
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Field, Layer, Lines, Values};
@@ -101,7 +101,7 @@ pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) 
         scalar("area", "m2", config.pores.area.iter().copied()),
     ];
     if let Some(occupation) = occupation {
-        let states = PoreStates::new(config, occupation).0;
+        let states = pore_states(config, occupation);
         fields.extend([
             integer("phase", states.iter().map(|state| phase(state.fluid))),
             integer("trapped", states.iter().map(|state| i64::from(state.is_trapped))),

@@ -72,21 +72,13 @@ fn of_geometry(config: &Configuration) -> Vec<Measure> {
         None => "sum of the pore areas in closed form over the area of the domain",
     };
     vec![
-        measure("porosity", config.porosity, "", porosity),
-        measure(
-            "pores",
-            pores.main_region.len() as f64,
-            "",
-            format!("maxima of the wall distance, joined at a persistence ratio above {ratio}"),
-        ),
-        measure(
-            "throats",
-            pores.throats.len() as f64,
-            "",
-            "saddles of the wall distance between pores, openings not counted",
-        ),
-        measure("narrowest-throat-m", number(narrowest), "m", "width of the narrowest throat that the merge left"),
-        measure("widest-throat-m", number(widest), "m", "width of the widest throat that the merge left"),
+        measure("porosity", config.porosity, "").by(porosity),
+        measure("pores", pores.main_region.len() as f64, "")
+            .by(format!("maxima of the wall distance, joined at a persistence ratio above {ratio}")),
+        measure("throats", pores.throats.len() as f64, "")
+            .by("saddles of the wall distance between pores, openings not counted"),
+        measure("narrowest-throat-m", number(narrowest), "m").by("width of the narrowest throat that the merge left"),
+        measure("widest-throat-m", number(widest), "m").by("width of the widest throat that the merge left"),
     ]
 }
 
@@ -100,13 +92,13 @@ fn permeabilities(model: &Model) -> Vec<Measure> {
             None => "both sides along this axis would have to be open or periodic",
         };
         let notes: String = notes_on_permeability(config, axis).iter().map(|note| format!("; {note}")).collect();
-        measure(name, along(model, axis), "m2", format!("{method}{notes}"))
+        measure(name, along(model, axis), "m2").by(format!("{method}{notes}"))
     };
     let mut found = vec![of_axis(0, x), of_axis(1, y)];
     if let [[_, wetting, other]] = relative(model, &[1.0])[..] {
         let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
-        found.push(measure(of_wetting, wetting, "", method));
-        found.push(measure(of_other, other, "", method));
+        found.push(measure(of_wetting, wetting, "").by(method));
+        found.push(measure(of_other, other, "").by(method));
     }
     found
 }
@@ -121,9 +113,9 @@ fn entry_pressures(model: &Model) -> Vec<Measure> {
     let last = pressures.len().checked_sub(1);
     let method = "entry pressures of all throats in drainage, at the receding angle";
     vec![
-        measure(smallest, at(Some(0)), "Pa", format!("the smallest of the {method}")),
-        measure(median, at(last.map(|last| last / 2)), "Pa", format!("the median of the {method}")),
-        measure(largest, at(last), "Pa", format!("the largest of the {method}")),
+        measure(smallest, at(Some(0)), "Pa").by(format!("the smallest of the {method}")),
+        measure(median, at(last.map(|last| last / 2)), "Pa").by(format!("the median of the {method}")),
+        measure(largest, at(last), "Pa").by(format!("the largest of the {method}")),
     ]
 }
 
@@ -135,12 +127,12 @@ fn replaced(model: &Model) -> Option<Measure> {
     let method = format!(
         "throats whose entry pressure is the measured one in the first half cycle, of {given} that are given; the others are of another angle or have none"
     );
-    Some(measure("measured-entry-pressures", model.measured_throats(conditions) as f64, "", method))
+    Some(measure("measured-entry-pressures", model.measured_throats(conditions) as f64, "").by(method))
 }
 
 fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     let first = &cycles.half_cycles()[0];
-    let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
+    let (pressure, saturation) = cycles.record.outcomes[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
     let reached = if config.outlet.is_none() {
         "there is no outlet"
     } else if saturation.is_nan() {
@@ -150,98 +142,65 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     } else {
         "at the event by which the invading phase reached the outlet"
     };
-    let (name, space) = (first.name(), config.space());
+    let (name, space) = (first.invading.process(), config.space());
     let invading = cycles.half_cycle().invading;
     let wetting = cycles.saturation();
     let (left, of) = match invading {
         FluidPhase::NonWetting => (wetting, "wetting"),
         FluidPhase::Wetting => (1.0 - wetting, "non-wetting"),
     };
-    let ending = if cycles.is_done() { "at the end" } else { "so far, as the displacement continues" };
+    let ending = if cycles.is_done { "at the end" } else { "so far, as the displacement continues" };
     let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0);
-    let applied = largest.map(|entry| entry.applied).chain(cycles.outcomes()[0].last);
+    let applied = largest.map(|entry| entry.applied).chain(cycles.record.outcomes[0].last);
     let largest = applied.map(|applied| config.curvature(first.invading, applied));
     let largest = largest.fold(f64::NAN, |a, b| if a.abs() > b.abs() { a } else { b });
     let mut found = vec![
-        measure(
-            "breakthrough-pressure-Pa",
-            config.pressure(first.invading, pressure),
-            "Pa",
-            format!("capillary pressure p_n - p_w of the first {name}, {reached}"),
-        ),
-        measure(
-            "saturation-at-breakthrough",
-            saturation,
-            "",
-            format!("share of the {space} that the invading phase of the first {name} holds, {reached}"),
-        ),
-        measure(
-            "residual-saturation",
-            left,
-            "",
-            format!("share of the {space} that the {of} phase, the displaced one, holds {ending}"),
-        ),
-        measure(
-            "trapped-saturation",
-            cycles.trapped_saturation(),
-            "",
-            format!("share of the {space} where the {of} phase has no path to the outlet, {ending}"),
-        ),
-        measure(
-            "final-wetting-saturation",
-            wetting,
-            "",
-            format!("share of the {space} that the wetting phase holds, {ending}"),
-        ),
-        measure(
-            "largest-capillary-pressure-Pa",
-            config.tension.unwrap_or(f64::NAN) * largest,
-            "Pa",
-            format!("p_n - p_w applied at the end of the first {name}"),
-        ),
-        measure(
-            "events",
-            cycles.history().len() as f64,
-            "",
-            "bursts, touches, overlaps, snap-offs and reconnections of all half cycles",
-        ),
+        measure("breakthrough-pressure-Pa", config.pressure(first.invading, pressure), "Pa")
+            .by(format!("capillary pressure p_n - p_w of the first {name}, {reached}")),
+        measure("saturation-at-breakthrough", saturation, "")
+            .by(format!("share of the {space} that the invading phase of the first {name} holds, {reached}")),
+        measure("residual-saturation", left, "")
+            .by(format!("share of the {space} that the {of} phase, the displaced one, holds {ending}")),
+        measure("trapped-saturation", cycles.trapped_saturation(), "")
+            .by(format!("share of the {space} where the {of} phase has no path to the outlet, {ending}")),
+        measure("final-wetting-saturation", wetting, "")
+            .by(format!("share of the {space} that the wetting phase holds, {ending}")),
+        measure("largest-capillary-pressure-Pa", config.tension.unwrap_or(f64::NAN) * largest, "Pa")
+            .by(format!("p_n - p_w applied at the end of the first {name}")),
+        measure("events", cycles.history().len() as f64, "")
+            .by("bursts, touches, overlaps, snap-offs and reconnections of all half cycles"),
     ];
     if cycles.has_films() {
-        found.push(measure(
-            "film-saturation",
-            cycles.film_saturation(),
-            "",
-            format!("share of the {space} that films in corners hold, a part of the wetting saturation, {ending}"),
-        ));
         let closed = cycles.history().iter().filter(|entry| entry.kind == EventKind::SnapOff).count();
-        found.push(measure("snap-offs", closed as f64, "", "throats that films in corners closed, in all half cycles"));
+        let share = format!("share of the {space} that films in corners hold");
+        found.extend([
+            measure("film-saturation", cycles.film_saturation(), "")
+                .by(format!("{share}, a part of the wetting saturation, {ending}")),
+            measure("snap-offs", closed as f64, "").by("throats that films in corners closed, in all half cycles"),
+        ]);
     }
-    if let Some(loss) = hysteresis(config, cycles) {
-        found.push(loss);
-    }
+    found.extend(hysteresis(config, cycles));
     found
 }
 
 /// Work dissipated by a cycle of drainage and imbibition.
 fn hysteresis(config: &Configuration, cycles: &Cycles) -> Option<Measure> {
-    if cycles.half_cycles().len() < 2 || !cycles.is_done() {
+    if cycles.half_cycles().len() < 2 || !cycles.is_done {
         return None;
     }
     let last = cycles.half_cycles().len() - 2;
     let work = if cycles.has_films() { work_on_curve(cycles, last) } else { work_of_events(config, cycles, last) };
     let value = config.tension? * work;
-    Some(measure(
-        "hysteresis-work-J-per-m3",
-        value,
-        "J/m3",
-        "integral of p_n - p_w over the saturation that events displaced along the last drainage and imbibition: work per pore volume; what enters \
-         through openings at their beginnings takes no pressure and is left out",
+    Some(measure("hysteresis-work-J-per-m3", value, "J/m3").by(
+        "integral of p_n - p_w over the saturation that events displaced along the last drainage and imbibition: \
+             work per pore volume; what enters through openings at their beginnings takes no pressure and is left \
+             out",
     ))
 }
 
 /// The integral of curvature over saturation in 1/m from a half cycle on, by the trapezoidal rule between the points of the curve.
 fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
-    let pairs = cycles.curve().windows(2).filter(|pair| pair[0].half_cycle >= first);
+    let pairs = cycles.record.curve.windows(2).filter(|pair| pair[0].half_cycle >= first);
     let within = pairs.filter(|pair| pair[0].half_cycle == pair[1].half_cycle);
     -within
         .map(|pair| 0.5 * (pair[0].curvature + pair[1].curvature) * (pair[1].saturation - pair[0].saturation))
@@ -251,7 +210,7 @@ fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
 /// The same if saturations change only at events.
 fn work_of_events(config: &Configuration, cycles: &Cycles, last: usize) -> f64 {
     let mut work = 0.0;
-    for (half, outcome) in cycles.outcomes().iter().enumerate().skip(last) {
+    for (half, outcome) in cycles.record.outcomes.iter().enumerate().skip(last) {
         // The initial filling through openings needs no pressure.
         let mut before = outcome.first_saturation[1];
         for entry in cycles.history().iter().filter(|entry| entry.half_cycle == half) {

@@ -1,7 +1,7 @@
 //! The data of a network for output: its static configuration and its displacement.
 
 use std::cell::OnceCell;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::conductance::conductances;
 use super::cycles::{Cycles, FluidPhase};
@@ -45,6 +45,8 @@ pub struct Configuration {
     pub sides: [Side; 4],
     /// The region of saturations and porosity, if it is not the whole domain.
     pub region: Option<Bounds>,
+    /// What follows from the network alone.
+    pub(crate) derived: Arc<Derived>,
 }
 
 impl Configuration {
@@ -80,6 +82,15 @@ impl Configuration {
     }
 }
 
+/// What follows from a network alone and takes long, found when it is first asked for and shared by all cases of the network.
+#[derive(Debug, Default)]
+pub(crate) struct Derived {
+    /// The conductances of all throats.
+    conductances: OnceLock<Vec<f64>>,
+    /// The permeabilities along x and y.
+    pub(super) permeabilities: [OnceLock<f64>; 2],
+}
+
 /// A network with its displacement and cached derived quantities.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
@@ -88,37 +99,12 @@ pub(crate) struct Model {
     /// The displacement; `None` if the network is only extracted.
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
-    conductances: OnceCell<Vec<f64>>,
-    permeabilities: [OnceCell<f64>; 2],
 }
 
 impl Model {
     /// A network in its initial state.
     pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
-        Self {
-            config,
-            cycles,
-            entry_curvatures: OnceCell::new(),
-            conductances: OnceCell::new(),
-            permeabilities: Default::default(),
-        }
-    }
-
-    /// The same with known permeabilities along x and y.
-    pub(crate) fn with_permeabilities(mut self, permeabilities: [f64; 2]) -> Self {
-        self.permeabilities = permeabilities.map(OnceCell::from);
-        self
-    }
-
-    /// The permeability along an axis, computed by `find` once.
-    pub(super) fn permeability(&self, axis: usize, find: impl FnOnce() -> f64) -> f64 {
-        *self.permeabilities[axis].get_or_init(find)
-    }
-
-    /// The same with known conductances.
-    pub(crate) fn with_conductances(mut self, conductances: Vec<f64>) -> Self {
-        self.conductances = OnceCell::from(conductances);
-        self
+        Self { config, cycles, entry_curvatures: OnceCell::new() }
     }
 
     /// Entry curvatures of the throats of the network in drainage, in 1/m; `None` without a contact angle.
@@ -127,7 +113,8 @@ impl Model {
         let conditions = entry.as_ref()?;
         let throats = network.throats.len();
         let find = || {
-            let known = self.cycles.as_ref().map(Cycles::displacement).filter(|it| it.events() == conditions.events);
+            let known =
+                self.cycles.as_ref().map(|cycles| &cycles.displacement).filter(|it| it.events() == conditions.events);
             let new = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(conditions, throats);
             known.map_or_else(new, |displacement| displacement.entry_curvatures(conditions, throats))
         };
@@ -152,6 +139,6 @@ impl Model {
 
     /// The conductances of all throats of the network.
     pub(crate) fn conductances(&self) -> &[f64] {
-        self.conductances.get_or_init(|| conductances(&self.config.network))
+        self.config.derived.conductances.get_or_init(|| conductances(&self.config.network))
     }
 }

@@ -46,7 +46,7 @@ impl Occupation<'_> {
 impl Cycles {
     /// The present state.
     pub(crate) fn occupation(&self) -> Occupation<'_> {
-        let displacement = self.displacement();
+        let displacement = &self.displacement;
         let elements = displacement.elements();
         let present = self.history().iter().filter(|entry| entry.half_cycle == self.half_cycle_index());
         Occupation {
@@ -54,13 +54,13 @@ impl Cycles {
             invading: self.half_cycle().invading,
             share: (0..elements.len()).map(|e| f64::from(u8::from(displacement.phase(e) == Phase::Invading))).collect(),
             trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),
-            invasions: self.invasions().into(),
+            invasions: (&self.record.invasions[..]).into(),
             passed: present.map(|entry| entry.throat).collect(),
             menisci: self.menisci(),
             films: self.observed_films(),
             note: format!(
                 "{} {}: wetting saturation {:.3}",
-                self.half_cycle().name(),
+                self.half_cycle().invading.process(),
                 self.half_cycle_index() / 2 + 1,
                 self.saturation()
             ),
@@ -70,9 +70,9 @@ impl Cycles {
     /// All interfaces at the applied pressure, those around trapped regions included, each a polyline in m.
     pub(crate) fn all_menisci(&self, config: &Configuration) -> Vec<Vec<Vec2>> {
         const POINTS: u32 = 17;
-        let (displacement, half) = (self.displacement(), self.half_cycle());
-        let resting =
-            displacement.resting_curvature(self.applied().map_or(0.0, |applied| half.towards_wetting(applied)));
+        let (displacement, half) = (&self.displacement, self.half_cycle());
+        let resting = displacement
+            .resting_curvature(self.applied().map_or(0.0, |applied| half.invading.towards_wetting(applied)));
         let interfaces = displacement.interfaces(resting, config.bounds, config.periodic);
         let point = |k: u32| f64::from(k) / f64::from(POINTS - 1);
         interfaces.menisci.iter().map(|it| (0..POINTS).map(|k| it.curve.point(point(k))).collect()).collect()
@@ -80,7 +80,7 @@ impl Cycles {
 
     /// The menisci at the applied pressure, each a polyline in m.
     pub(crate) fn menisci(&self) -> Vec<Vec<Vec2>> {
-        let applied = self.applied().map_or(0.0, |applied| self.half_cycle().towards_wetting(applied));
-        self.displacement().menisci(applied)
+        let applied = self.applied().map_or(0.0, |applied| self.half_cycle().invading.towards_wetting(applied));
+        self.displacement.menisci(applied)
     }
 }

@@ -7,56 +7,51 @@
 use super::conductance::opening_conductances;
 use super::graph::{Opening, Throat};
 use super::model::{Configuration, Model};
-use super::tables::{center, finite, flags, kept, length, numbers, openings, pores_of, radius, wall_lengths};
+use super::tables::{center, counts, finite, flags, kept, length, numbers, openings, pores_of, radius, wall_lengths};
 use crate::case::SIDES;
 use crate::math::Vec2;
-use crate::table::{Cells, Column, Table};
+use crate::table::{Column, Table};
 
-/// A connection between two pores: a throat or an opening.
-enum Link<'a> {
-    Throat { index: usize, throat: &'a Throat },
-    Opening { index: usize, opening: &'a Opening },
-}
-
+/// A connection between two pores: a throat, or an opening where there is none.
 struct Connection<'a> {
     ends: [usize; 2],
-    link: Link<'a>,
+    throat: Option<&'a Throat>,
+    width: f64,
+    length: f64,
+    conductance: f64,
+    entry_pressure: f64,
 }
 
-fn connections(config: &Configuration) -> Vec<Connection<'_>> {
-    let pores = config.pores.main_region.len();
+fn connections(model: &Model) -> Vec<Connection<'_>> {
+    let config = &model.config;
+    let (conductances, pressures) = (model.conductances(), model.entry_pressures());
     let throats = config.pores.throats.iter().zip(kept(config)).filter_map(|(&index, throat)| {
         let [a, b] = pores_of(config, throat);
-        (a != b).then_some(Connection { ends: [a.min(b), a.max(b)], link: Link::Throat { index, throat } })
+        (a != b).then(|| Connection {
+            ends: [a.min(b), a.max(b)],
+            throat: Some(throat),
+            width: throat.width,
+            length: length(config, throat),
+            conductance: conductances[index],
+            entry_pressure: pressures.as_ref().map_or(f64::NAN, |all| all[index]),
+        })
     });
-    let openings = openings(config).enumerate().map(|(index, (opening, pore))| Connection {
+    let pores = config.pores.main_region.len();
+    let openings = openings(config).zip(opening_conductances(&config.network)).enumerate();
+    let openings = openings.map(|(index, ((opening, pore), conductance))| Connection {
         ends: [pore, pores + index],
-        link: Link::Opening { index, opening },
+        throat: None,
+        width: width(opening),
+        length: (center(config, pore) - middle(opening)).norm(),
+        conductance,
+        // An opening joins a reservoir: it has no entry pressure.
+        entry_pressure: 0.0,
     });
     throats.chain(openings).collect()
 }
 
-impl Connection<'_> {
-    fn width(&self) -> f64 {
-        match &self.link {
-            Link::Throat { throat, .. } => throat.width,
-            Link::Opening { opening, .. } => (opening.ends[1] - opening.ends[0]).norm(),
-        }
-    }
-
-    fn length(&self, config: &Configuration) -> f64 {
-        match &self.link {
-            Link::Throat { throat, .. } => length(config, throat),
-            Link::Opening { opening, .. } => (center(config, self.ends[0]) - middle(opening)).norm(),
-        }
-    }
-
-    fn of_throat(&self, value: impl Fn(&Throat) -> f64, of_opening: f64) -> f64 {
-        match &self.link {
-            Link::Throat { throat, .. } => value(throat),
-            Link::Opening { .. } => of_opening,
-        }
-    }
+fn width(opening: &Opening) -> f64 {
+    (opening.ends[1] - opening.ends[0]).norm()
 }
 
 fn middle(opening: &Opening) -> Vec2 {
@@ -84,7 +79,6 @@ fn pore_columns(config: &Configuration) -> Vec<Column> {
     };
     let area = |pore: usize| config.pores.area[pore];
     let diameter = |pore: usize| 2.0 * radius(config, pore);
-    let width = |opening: &Opening| (opening.ends[1] - opening.ends[0]).norm();
     let walls = wall_lengths(config);
     let zero = |_: &Opening| 0.0;
     let (depth, plates) = (config.thickness(), plates(config));
@@ -117,40 +111,32 @@ fn pore_columns(config: &Configuration) -> Vec<Column> {
 fn throat_columns(model: &Model) -> Vec<Column> {
     let config = &model.config;
     let (depth, plates) = (config.thickness(), plates(config));
-    let all = connections(config);
+    let all = connections(model);
     let column = |name, value: &dyn Fn(&Connection<'_>) -> f64| numbers(name, all.iter().map(value));
-    let end = |name, side: usize| Column { name, cells: Cells::Counts(all.iter().map(|it| it.ends[side]).collect()) };
-    let direct = |it: &Connection<'_>| it.length(config);
+    let of_throat = |name, value: &dyn Fn(&Throat) -> f64| column(name, &|it| it.throat.map_or(f64::NAN, value));
+    let end = |name, side: usize| counts(name, all.iter().map(|it| it.ends[side]));
+    let viscosity = config.viscosities[0].unwrap_or(1.0);
     let mut columns = vec![
         end("throat.conns[0]", 0),
         end("throat.conns[1]", 1),
-        column("throat.diameter", &|it| it.width()),
-        column("throat.inscribed_diameter", &|it| it.width()),
-        column("throat.equivalent_diameter", &|it| it.width()),
-        column("throat.length", &direct),
-        column("throat.total_length", &direct),
-        column("throat.spacing", &direct),
-        column("throat.cross_sectional_area", &|it| depth * it.width()),
-        column("throat.perimeter", &|it| 2.0 * it.width() + plates * depth),
+        column("throat.diameter", &|it| it.width),
+        column("throat.inscribed_diameter", &|it| it.width),
+        column("throat.equivalent_diameter", &|it| it.width),
+        column("throat.length", &|it| it.length),
+        column("throat.total_length", &|it| it.length),
+        column("throat.spacing", &|it| it.length),
+        column("throat.cross_sectional_area", &|it| depth * it.width),
+        column("throat.perimeter", &|it| 2.0 * it.width + plates * depth),
         column("throat.volume", &|_| 0.0),
-        column("throat.curvature_1", &|it| it.of_throat(|throat| finite(throat.curvatures[0]), f64::NAN)),
-        column("throat.curvature_2", &|it| it.of_throat(|throat| finite(throat.curvatures[1]), f64::NAN)),
-        column("throat.wall_1", &|it| it.of_throat(|throat| f64::from(throat.shapes[0]), f64::NAN)),
-        column("throat.wall_2", &|it| it.of_throat(|throat| f64::from(throat.shapes[1]), f64::NAN)),
+        of_throat("throat.curvature_1", &|throat| finite(throat.curvatures[0])),
+        of_throat("throat.curvature_2", &|throat| finite(throat.curvatures[1])),
+        of_throat("throat.wall_1", &|throat| f64::from(throat.shapes[0])),
+        of_throat("throat.wall_2", &|throat| f64::from(throat.shapes[1])),
+        column("throat.hydraulic_conductance", &|it| depth * it.conductance / viscosity),
     ];
-    let (conductances, of_openings) = (model.conductances(), opening_conductances(&config.network));
-    let viscosity = config.viscosities[0].unwrap_or(1.0);
-    columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
-        Link::Throat { index, .. } => depth * conductances[index] / viscosity,
-        Link::Opening { index, .. } => depth * of_openings[index] / viscosity,
-    }));
-    if let Some(pressures) = model.entry_pressures() {
-        // An opening joins a reservoir: it has no entry pressure.
-        columns.push(column("throat.entry_pressure", &|it| match it.link {
-            Link::Throat { index, .. } => pressures[index],
-            Link::Opening { .. } => 0.0,
-        }));
+    if config.tension.is_some() {
+        columns.push(column("throat.entry_pressure", &|it| it.entry_pressure));
     }
-    columns.push(flags("throat.boundary", all.iter().map(|it| matches!(it.link, Link::Opening { .. }))));
+    columns.push(flags("throat.boundary", all.iter().map(|it| it.throat.is_none())));
     columns
 }

@@ -72,12 +72,15 @@ fn conductors(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> 
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::PI;
 
     use super::*;
+    use crate::geometry::Geometry;
     use crate::geometry::curve::Curve;
+    use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
     use crate::math::Vec2;
     use crate::network::conductance::conductances;
+    use crate::network::extract::extract;
     use crate::network::graph::{Edge, Opening, Region, Throat, WallPiece};
 
     fn wall(curve: Curve) -> Edge {
@@ -89,33 +92,10 @@ mod tests {
     }
 
     /// A square array of discs of period 1: one region, a throat to itself over each side.
-    fn square_array(r: f64) -> Network {
-        let v = Vec2::new;
-        let chord = |throat, end, from, to| Edge::Throat { throat, end, from, to };
-        let corner = |center, start| wall(Curve::Arc { center, radius: r, start, sweep: FRAC_PI_2 });
-        let edges = vec![
-            chord(0, 0, v(r, 1.0), v(1.0 - r, 1.0)),
-            corner(v(1.0, 1.0), PI),
-            chord(1, 0, v(1.0, 1.0 - r), v(1.0, r)),
-            corner(v(1.0, 0.0), FRAC_PI_2),
-            chord(0, 1, v(1.0 - r, 0.0), v(r, 0.0)),
-            corner(v(0.0, 0.0), 0.0),
-            chord(1, 1, v(0.0, r), v(0.0, 1.0 - r)),
-            corner(v(0.0, 1.0), -FRAC_PI_2),
-        ];
-        let throat = |contacts, shift| Throat {
-            width: 1.0 - 2.0 * r,
-            contacts,
-            shapes: [0, 0],
-            curvatures: [1.0 / r; 2],
-            regions: [0, 0],
-            shift,
-        };
-        let throats = vec![
-            throat([v(r, 1.0), v(1.0 - r, 1.0)], v(0.0, -1.0)),
-            throat([v(1.0, 1.0 - r), v(1.0, r)], v(-1.0, 0.0)),
-        ];
-        Network { regions: vec![region(v(0.5, 0.5), 0.5_f64.sqrt() - r, edges)], throats, ..Network::default() }
+    fn square_array(radius: f64) -> Network {
+        let shapes = vec![ShapeSpec::Disc(Disc { center: [0.0; 2], radius })];
+        let spec = GeometrySpec { min: [0.0; 2], max: [1.0; 2], solid: SolidSide::Inside, shapes };
+        extract(&Geometry::new(&spec).unwrap().with_periodic([true, true]), [false; 4]).unwrap()
     }
 
     const UNIT: Bounds = Bounds { min: Vec2::new(0.0, 0.0), max: Vec2::new(1.0, 1.0) };

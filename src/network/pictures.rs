@@ -4,10 +4,11 @@ use super::cycles::{Cycles, Entry, FluidPhase};
 use super::displacement::Element;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
+use super::region::shifts;
 use super::tables::{kept, radius};
 use crate::case::Side;
 use crate::diagram::{Area, Color, Diagram, Frame, RegionMap, Stroke, Through, Tone, Trace, colors};
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 
 /// Least length of steps of the curve that are drawn, over that of an axis.
 const FINEST: f64 = 1.0e-3;
@@ -52,7 +53,7 @@ pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
 fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram> {
     config.tension?;
     let pressure_at = |entry: &Entry| config.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
-    let on_curve = cycles.curve().iter().map(|point| config.tension.unwrap_or(f64::NAN) * point.curvature.abs());
+    let on_curve = cycles.record.curve.iter().map(|point| config.tension.unwrap_or(f64::NAN) * point.curvature.abs());
     let applied = cycles.history().iter().map(|entry| pressure_at(entry).abs()).chain(on_curve);
     let (label, unit) = if applied.fold(0.0, f64::max) > KILO {
         ("capillary pressure p_n - p_w in kPa", 1.0e-3)
@@ -60,11 +61,11 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
         ("capillary pressure p_n - p_w in Pa", 1.0)
     };
     let mut traces: Vec<Trace> = Vec::new();
-    for (index, outcome) in cycles.outcomes().iter().enumerate() {
+    for (index, outcome) in cycles.record.outcomes.iter().enumerate() {
         let name = process_name(cycles, index);
         let last = traces.last().and_then(|trace| trace.points.last().copied());
         if cycles.has_films() {
-            let of_half = cycles.curve().iter().filter(|point| point.half_cycle == index);
+            let of_half = cycles.record.curve.iter().filter(|point| point.half_cycle == index);
             let tension = config.tension?;
             let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]);
             let points = last.into_iter().chain(points).collect();
@@ -99,7 +100,7 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
 /// Primary drainage, imbibition, secondary drainage and so on in a cycle; for a single half cycle, the process alone.
 fn process_name(cycles: &Cycles, index: usize) -> String {
     const ORDERS: [&str; 2] = ["primary", "secondary"];
-    let (process, number) = (cycles.half_cycles()[index].name(), index / 2);
+    let (process, number) = (cycles.half_cycles()[index].invading.process(), index / 2);
     match ORDERS.get(number) {
         _ if cycles.half_cycles().len() == 1 => process.to_owned(),
         Some(_) if cycles.half_cycles().len() == 2 && index == 1 => process.to_owned(),
@@ -137,28 +138,16 @@ fn thinned(points: &[[f64; 2]], finest: [f64; 2]) -> Vec<[f64; 2]> {
     corners
 }
 
-fn pair(point: Vec2) -> [f64; 2] {
-    point.into()
-}
-
 /// All periodic images of a line or an outline that overlap the domain.
 fn images(config: &Configuration, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
-    let domain = config.bounds;
-    let ends = line.iter().fold(None, |ends: Option<[Vec2; 2]>, point| {
-        Some(ends.map_or([*point; 2], |[low, high]| [low.inf(point), high.sup(point)]))
-    });
-    let Some([low, high]) = ends else { return Vec::new() };
-    let shifts = [0, 1].map(|axis| {
-        let size = domain.size()[axis];
-        if !config.periodic[axis] || !(size > 0.0) {
-            return vec![0.0];
-        }
-        let first = ((domain.min[axis] - high[axis]) / size).ceil() as i32;
-        let last = ((domain.max[axis] - low[axis]) / size).floor() as i32;
-        (first..=last).map(|periods| f64::from(periods) * size).collect()
-    });
-    let moved = |x: f64, y: f64| line.iter().map(|point| pair(point + Vec2::new(x, y))).collect();
-    shifts[0].iter().flat_map(|&x| shifts[1].iter().map(move |&y| (x, y))).map(|(x, y)| moved(x, y)).collect()
+    let Some(ends) = Bounds::around(line.iter().copied()) else { return Vec::new() };
+    let moved = |by: Vec2| line.iter().map(|point| (point + by).into()).collect();
+    shifts(ends, config.bounds, config.periods()).into_iter().map(moved).collect()
+}
+
+/// The periodic images of an outline in one tone.
+fn areas(config: &Configuration, outline: &[Vec2], tone: Tone) -> Vec<Area> {
+    images(config, outline).into_iter().map(|boundary| Area { boundary, tone }).collect()
 }
 
 /// The maps: the order of invasion, or without a displacement the pores by size.
@@ -168,8 +157,9 @@ pub(crate) fn region_maps(config: &Configuration, occupation: Option<&Occupation
 
 fn empty(config: &Configuration) -> RegionMap {
     let outline = &config.outline;
-    let wall =
-        |line: &Vec<u32>| line.iter().filter_map(|&i| outline.points.get(i as usize)).copied().map(pair).collect();
+    let wall = |line: &Vec<u32>| {
+        line.iter().filter_map(|&i| outline.points.get(i as usize)).map(|&point| point.into()).collect()
+    };
     RegionMap {
         name: "network",
         note: String::new(),
@@ -178,7 +168,7 @@ fn empty(config: &Configuration) -> RegionMap {
         classes: Vec::new(),
         bar: colors::SIZES,
         frame: Frame {
-            bounds: [pair(config.bounds.min), pair(config.bounds.max)],
+            bounds: [config.bounds.min.into(), config.bounds.max.into()],
             open: config.sides.map(through),
             periodic: config.periodic,
         },
@@ -200,7 +190,7 @@ fn through(side: Side) -> Option<Through> {
 }
 
 fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
-    let areas = occupation.elements.iter().enumerate().map(|(index, element)| {
+    let areas = occupation.elements.iter().enumerate().flat_map(|(index, element)| {
         let is_invaded = occupation.is_invaded(index);
         let tone = match occupation.invasions[index] {
             Some(invasion) if is_invaded => Tone::Value(invasion.displaced),
@@ -208,9 +198,8 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
             None if is_invaded => Tone::Class(2),
             _ => Tone::Class(0),
         };
-        images(config, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
+        areas(config, &element.outline, tone)
     });
-    let areas: Vec<Area> = areas.flatten().collect();
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
     let (label, bar) = invading.in_order;
@@ -228,7 +217,7 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
             defending.trapped,
             (invading.before, invading.color),
         ],
-        areas,
+        areas: areas.collect(),
         menisci: ("menisci", menisci),
         strips: ("films", strips.collect()),
         ..empty(config)
@@ -237,10 +226,8 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
 
 /// The elements by their probability of invasion.
 pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64], note: String) -> RegionMap {
-    let areas = elements.iter().zip(probability).flat_map(|(element, &probability)| {
-        let tone = Tone::Value(probability);
-        images(config, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
-    });
+    let elements = elements.iter().zip(probability);
+    let areas = elements.flat_map(|(element, &it)| areas(config, &element.outline, Tone::Value(it)));
     RegionMap {
         name: "invasion-probability",
         note,
@@ -253,9 +240,7 @@ pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability
 fn sizes(config: &Configuration) -> RegionMap {
     let pores = &config.pores;
     let areas = config.network.regions.iter().zip(&pores.pore_of).flat_map(|(region, &pore)| {
-        let tone = Tone::Value(radius(config, pore));
-        let boundaries = images(config, &super::displacement::outline(region));
-        boundaries.into_iter().map(move |boundary| Area { boundary, tone })
+        areas(config, &super::displacement::outline(region), Tone::Value(radius(config, pore)))
     });
     let largest = (0..pores.main_region.len()).map(|pore| radius(config, pore)).fold(0.0, f64::max);
     RegionMap {

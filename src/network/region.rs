@@ -84,8 +84,8 @@ fn area_within(boundary: Vec<Curve>, area: f64, rectangle: Bounds, periods: [Opt
     if found > ROUNDING * rectangle.area() { found.min(area) } else { 0.0 }
 }
 
-/// The numbers of periods by which an interval with these ends is shifted to overlap a rectangle.
-fn shifts(ends: Bounds, region: Bounds, periods: [Option<f64>; 2]) -> Vec<Vec2> {
+/// The shifts in m by whole periods at which what lies between these ends overlaps a rectangle.
+pub(super) fn shifts(ends: Bounds, region: Bounds, periods: [Option<f64>; 2]) -> Vec<Vec2> {
     let [along_x, along_y] = [0, 1].map(|axis| match periods[axis] {
         None => vec![0.0],
         Some(period) => {

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::angles::{angles, depth_for, film_terms};
-use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
-use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
+use super::cycles::{Cycles, FluidPhase, HalfCycle};
+use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
-use super::dynamic::{self, Drive, Dynamic, Terms};
+use super::dynamic::{Drive, Dynamic, Terms};
 use super::graph::Network;
 pub(crate) use super::ground::{Ground, geometry};
 use super::model::Configuration;
@@ -16,9 +16,7 @@ use super::solver::NetworkSolver;
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
-use crate::case::network::{
-    DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop, Trapping,
-};
+use crate::case::network::{DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop};
 use crate::case::{Case, SIDES, Side};
 use crate::solver::Solver;
 
@@ -26,16 +24,14 @@ use crate::solver::Solver;
 pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
     let quasi_static = build_quasi_static(case, wanted)?;
     Ok(match in_time(wanted, &quasi_static)? {
-        Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(quasi_static, dynamic, invading, end)),
+        Some(solver) => Box::new(solver),
         None => Box::new(quasi_static),
     })
 }
 
 /// The solver of a dynamic displacement in its initial state; `None` if the case has none.
 pub(crate) fn build_in_time(case: &Case, wanted: &PoreNetwork) -> Result<Option<DynamicSolver>, SetupError> {
-    let quasi_static = build_quasi_static(case, wanted)?;
-    let found = in_time(wanted, &quasi_static)?;
-    Ok(found.map(|(dynamic, invading, end)| DynamicSolver::new(quasi_static, dynamic, invading, end)))
+    in_time(wanted, &build_quasi_static(case, wanted)?)
 }
 
 /// The solver of a quasi-static displacement; without a displacement if the case has a dynamic one.
@@ -51,8 +47,7 @@ pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>
         None => None,
     };
     let solver = assemble(wanted, ground, network, initial).timed(ground.seconds);
-    if let Some(region) = wanted.region.filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted().sum > 0.0)))
-    {
+    if let Some(region) = wanted.region.filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted.sum > 0.0))) {
         return Err(SetupError::EmptyRegion { min: region.min, max: region.max });
     }
     let found = &solver.config().geometry_hash;
@@ -76,15 +71,9 @@ fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
 
 /// The phases of a saved state for the first half cycle.
 fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Result<Beginning, SetupError> {
-    let (walls, pores) = (ground.walls(), &ground.pores);
-    let half = match (&wanted.displacement, &wanted.interface) {
-        (Some(displacement), Some(interface)) => {
-            half_cycles(displacement, interface, wanted.sides.each(), (walls, network, &measured(wanted)))
-        }
-        _ => Vec::new(),
-    };
-    let Some(first) = half.into_iter().next() else { return Err(SetupError::NoPore) };
-    let fresh = Displacement::new(network, pores, first.conditions);
+    let half_cycles = half_cycles(wanted, ground.walls(), network);
+    let Some(first) = half_cycles.into_iter().next() else { return Err(SetupError::NoPore) };
+    let fresh = Displacement::new(network, &ground.pores, first.conditions);
     let elements = fresh.elements();
     let other = |why| SetupError::OtherState {
         file: start.file.clone(),
@@ -113,21 +102,10 @@ fn assemble(
     initial: Option<Arc<Beginning>>,
 ) -> NetworkSolver {
     let (walls, pores) = (ground.walls(), Arc::clone(&ground.pores));
-    let half_cycles = match (&wanted.displacement, &wanted.interface) {
-        (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
-            half_cycles(displacement, interface, wanted.sides.each(), (walls, &network, &measured(wanted)))
-        }
-        _ => Vec::new(),
-    };
+    let half_cycles = if wanted.is_dynamic() { Vec::new() } else { half_cycles(wanted, walls, &network) };
     let entry = wanted.interface.as_ref().map(|interface| Conditions {
-        angle: angles(interface, walls, FluidPhase::NonWetting),
-        inlet: [false; 4],
-        outlet: [false; 4],
-        trapping: Trapping::None,
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
         measured: measured(wanted),
-        films: CornerFilms::Absent,
+        ..Conditions::new(angles(interface, walls, FluidPhase::NonWetting))
     });
     let division = half_cycles.first().and_then(|half| ground.division(half.conditions.events));
     let mut config = Configuration {
@@ -148,23 +126,21 @@ fn assemble(
         geometry_hash: ground.hash.clone(),
         sides: wanted.sides.each(),
         region: wanted.region.map(Region::bounds),
+        derived: if network.depth == ground.network.depth { Arc::clone(&ground.derived) } else { Arc::default() },
     };
     let counted = |displacement: &Displacement| match config.region {
         Some(region) => Counted::within(displacement, region, config.periods()),
         None => Counted::everywhere(displacement),
     };
-    let cycles = Cycles::new(Arc::clone(&network), pores, half_cycles, (initial, division), counted);
+    let cycles = Cycles::new(&network, &pores, half_cycles, initial, division, counted);
     if let Some(region) = config.region {
         config.porosity = porosity(&network, region, config.periods());
     }
     NetworkSolver::new(config, cycles)
 }
 
-/// A dynamic displacement with the invading phase and its end.
-pub(crate) type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
-
-/// The dynamic displacement of a case.
-pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
+/// The solver of the dynamic displacement of a case, on the network of another one.
+pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Result<Option<DynamicSolver>, SetupError> {
     let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
     let config = quasi_static.config();
     let invading =
@@ -174,15 +150,10 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
     let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
     let walls = config.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
     let conditions = Conditions {
-        angle: angles(interface, walls, invading),
         // Pores at the inlet that are not full initially are displaced like others.
         inlet: if driven.initial_saturation.is_some() { [false; 4] } else { inlet },
         outlet,
-        trapping: Trapping::None,
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
+        ..Conditions::new(angles(interface, walls, invading))
     };
     let terms = Terms {
         viscosity: if invading == FluidPhase::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
@@ -197,20 +168,12 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
         depth: config.depth_for(invading).map(|depth| (invading, depth)),
     };
     let start = Displacement::new(&config.network, &config.pores, conditions);
-    let end = dynamic::solver::End {
-        at_breakthrough: displacement.stop.breakthrough,
-        at_saturation: displacement.stop.saturation.map(|wetting| match invading {
-            FluidPhase::Wetting => wetting,
-            FluidPhase::NonWetting => 1.0 - wetting,
-        }),
-        at_injected: displacement.stop.injected,
-    };
     let mut dynamic = Dynamic::new(Arc::clone(&config.network), start, terms);
     if let Some(wetting) = driven.initial_saturation {
-        let asked = if invading == FluidPhase::Wetting { wetting } else { 1.0 - wetting };
+        let asked = invading.saturation(wetting);
         dynamic = dynamic.beginning_with(asked).map_err(|found| SetupError::InletTooSmall { asked, found })?;
     }
-    Ok(Some((dynamic, invading, end)))
+    Ok(Some(DynamicSolver::new(quasi_static.clone(), dynamic, invading, displacement.stop)))
 }
 
 /// Parameters of a dynamic displacement: fluids, drive, viscosities in Pa s of the wetting and the non-wetting phase.
@@ -220,13 +183,10 @@ fn asked_in_time(wanted: &PoreNetwork) -> Option<(&NetworkDisplacement, &Network
     Some((displacement, wanted.interface.as_ref()?, displacement.dynamic?, viscosities))
 }
 
-fn half_cycles(
-    displacement: &NetworkDisplacement,
-    interface: &NetworkInterface,
-    sides: [Side; 4],
-    (walls, network, measured): (usize, &Network, &[MeasuredBurst]),
-) -> Vec<HalfCycle> {
-    let open = |kind: Side| sides.map(|side| side == kind);
+/// The half cycles of a case; none without a displacement.
+fn half_cycles(wanted: &PoreNetwork, walls: usize, network: &Network) -> Vec<HalfCycle> {
+    let (Some(displacement), Some(interface)) = (&wanted.displacement, &wanted.interface) else { return Vec::new() };
+    let open = |kind: Side| wanted.sides.each().map(|side| side == kind);
     let half = |invading: FluidPhase, [from, to]: [Side; 2], stop: Stop| {
         let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
         let in_plane = |pressure: f64| {
@@ -238,27 +198,21 @@ fn half_cycles(
         HalfCycle {
             invading,
             conditions: Conditions {
-                angle: angles(interface, walls, invading),
                 inlet: open(from),
                 outlet: open(to),
                 trapping: displacement.trapping,
                 events: displacement.events,
                 largest_curvature: stop.capillary_pressure.map_or(f64::INFINITY, |pressure| sign * in_plane(pressure)),
-                measured: measured.to_vec(),
+                measured: measured(wanted),
                 films: match &films {
                     None => CornerFilms::Absent,
                     Some(_) if invading == FluidPhase::NonWetting => CornerFilms::Drain,
                     Some(terms) => CornerFilms::Join { meeting: terms.meeting(network) },
                 },
+                ..Conditions::new(angles(interface, walls, invading))
             },
             films,
-            end: End {
-                at_breakthrough: stop.breakthrough,
-                at_saturation: stop.saturation.map(|wetting| match invading {
-                    FluidPhase::Wetting => wetting,
-                    FluidPhase::NonWetting => 1.0 - wetting,
-                }),
-            },
+            stop,
         }
     };
     let forwards = [Side::Inlet, Side::Outlet];

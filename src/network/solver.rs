@@ -5,8 +5,6 @@
 
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
-
 use super::cycles::Cycles;
 use super::displacement::EventKind;
 use super::measures::Costly;
@@ -27,13 +25,6 @@ pub struct NetworkSolver {
     steps_before: u64,
     /// Wall times of extraction and displacement in s.
     pub(super) seconds: [f64; 2],
-}
-
-/// The state that checkpoints store: on restart the same events are repeated in the same order.
-#[derive(Serialize, Deserialize)]
-struct Saved {
-    clock: f64,
-    steps: u64,
 }
 
 /// Label of the clock.
@@ -62,7 +53,7 @@ impl NetworkSolver {
     }
 
     fn count(&self, kind: EventKind) -> f64 {
-        let history = self.model.cycles.as_ref().map_or(&[][..], Cycles::history);
+        let history = self.cycles().map_or(&[][..], Cycles::history);
         history.iter().filter(|entry| entry.kind == kind).count() as f64
     }
 }
@@ -77,11 +68,11 @@ impl Solver for NetworkSolver {
     }
 
     fn is_done(&self) -> bool {
-        self.model.cycles.as_ref().is_none_or(Cycles::is_done)
+        self.cycles().is_none_or(|cycles| cycles.is_done)
     }
 
     fn steps(&self) -> u64 {
-        self.model.cycles.as_ref().map_or(0, Cycles::steps)
+        self.cycles().map_or(0, |cycles| cycles.steps)
     }
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
@@ -99,7 +90,7 @@ impl Solver for NetworkSolver {
             step: self.steps(),
             particles: Cloud::default(),
             grid: None,
-            interface: self.model.cycles.as_ref().map(|cycles| layers::menisci(cycles.menisci())),
+            interface: self.cycles().map(|cycles| layers::menisci(cycles.menisci())),
         }
     }
 
@@ -157,60 +148,48 @@ impl Solver for NetworkSolver {
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
-        vec![layers::regions(&self.model.config, self.model.cycles.as_ref().map(Cycles::occupation).as_ref())]
+        vec![layers::regions(&self.model.config, self.cycles().map(Cycles::occupation).as_ref())]
     }
 
     fn results(&self) -> Results<'_> {
-        let occupation = self.model.cycles.as_ref().map(|cycles| {
-            let menisci = cycles.all_menisci(&self.model.config);
-            Occupation { menisci, ..cycles.occupation() }
-        });
+        let (config, cycles) = (self.config(), self.cycles());
+        let occupation = cycles.map(|cycles| Occupation { menisci: cycles.all_menisci(config), ..cycles.occupation() });
         let mut results = results_with(&self.model, occupation.as_ref());
-        results.tables.extend(self.model.cycles.as_ref().map(|cycles| tables::events(&self.model.config, cycles)));
-        let cycles = self.model.cycles.as_ref();
-        results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(&self.model.config, cycles)));
+        results.tables.extend(cycles.map(|cycles| tables::events(config, cycles)));
+        results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(config, cycles)));
         results.documents.extend(state::documents(&self.model));
         results.tables.extend(flow::table(&self.model));
         results
     }
 
     fn state(&self) -> Vec<u8> {
-        let saved = Saved { clock: self.clock, steps: self.steps() };
-        // Encoding two numbers cannot fail.
-        postcard::to_stdvec(&saved).unwrap_or_default()
+        // On restart the same events are repeated in the same order. Encoding two numbers cannot fail.
+        postcard::to_stdvec(&(self.clock, self.steps())).unwrap_or_default()
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
-        let saved: Saved = postcard::from_bytes(state).map_err(|error| StateError(error.to_string()))?;
-        self.model.cycles = self.model.cycles.as_ref().and_then(Cycles::restarted);
+        let (clock, steps) = postcard::from_bytes(state).map_err(|error| StateError(error.to_string()))?;
+        let Configuration { network, pores, .. } = self.config();
+        self.model.cycles = self.cycles().and_then(|cycles| cycles.restarted(network, pores));
         if let Some(cycles) = &mut self.model.cycles {
-            while cycles.steps() < saved.steps {
-                if cycles.advance().is_none() && cycles.steps() < saved.steps {
-                    return Err(StateError(format!(
-                        "it is the result of {} steps, and there are {}",
-                        saved.steps,
-                        cycles.steps()
-                    )));
+            while cycles.steps < steps {
+                if cycles.advance().is_none() && cycles.steps < steps {
+                    let found = cycles.steps;
+                    return Err(StateError(format!("it is the result of {steps} steps, and there are {found}")));
                 }
             }
         }
-        self.steps_before = saved.steps;
-        self.clock = saved.clock;
+        (self.clock, self.steps_before) = (clock, steps);
         Ok(())
     }
 
     fn steps_to(&self, _end: f64) -> Option<f64> {
         // Upper bound: each event of a half cycle fills one element, or closes or opens a throat.
-        let throats = if self.model.cycles.as_ref().is_some_and(Cycles::has_films) {
-            self.model.config.network.throats.len()
-        } else {
-            0
-        };
-        let elements =
-            |cycles: &Cycles| (cycles.displacement().elements().len() + throats) * cycles.half_cycles().len();
-        Some(
-            self.model.cycles.as_ref().map_or(0.0, |cycles| (elements(cycles) as f64 - cycles.steps() as f64).max(0.0)),
-        )
+        Some(self.cycles().map_or(0.0, |cycles| {
+            let throats = if cycles.has_films() { self.model.config.network.throats.len() } else { 0 };
+            let events = (cycles.displacement.elements().len() + throats) * cycles.half_cycles().len();
+            (events as f64 - cycles.steps as f64).max(0.0)
+        }))
     }
 
     fn statistics(&self) -> Statistics {

@@ -36,10 +36,10 @@ pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment)
     let half = &half_cycles[moment.half_cycle];
     let displacement = &moment.displacement;
     // Before the first event menisci are as flat as their walls allow.
-    let largest = moment.applied.map_or(0.0, |applied| half.towards_wetting(applied));
+    let largest = moment.applied.map_or(0.0, |applied| half.invading.towards_wetting(applied));
     let resting = displacement.resting_curvature(largest);
     let interfaces = displacement.interfaces(resting, config.bounds, config.periodic);
-    let applied = half.towards_wetting(resting);
+    let applied = half.invading.towards_wetting(resting);
     let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
     let invading = interfaces.area.map(|area| area / pore_area);
     let angle = |angle: &f64| {
@@ -62,10 +62,7 @@ pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment)
         largest_applied_curvature_per_m: moment.applied,
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,
-        saturation_with_menisci: invading.map(|share| match half.invading {
-            FluidPhase::Wetting => share,
-            FluidPhase::NonWetting => 1.0 - share,
-        }),
+        saturation_with_menisci: invading.map(|share| half.invading.saturation(share)),
         elements: elements(half, moment, &interfaces.trapped),
         menisci: interfaces.menisci.iter().map(|one| meniscus(half, one)).collect(),
         snapped_throats: displacement.closed_throats(),
@@ -83,7 +80,7 @@ fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementSt
                 Phase::Defending => half.invading.other(),
             },
             trapped: displacement.is_trapped(index),
-            trapped_curvature_per_m: trapped_at.is_finite().then(|| half.towards_wetting(trapped_at)),
+            trapped_curvature_per_m: trapped_at.is_finite().then(|| half.invading.towards_wetting(trapped_at)),
             area_m2: element.area,
             boundary: displacement.boundary(index).iter().map(Curve::numbers).collect(),
         }
@@ -94,7 +91,7 @@ fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementSt
 fn meniscus(half: &HalfCycle, meniscus: &StaticMeniscus) -> MeniscusState {
     MeniscusState {
         between: meniscus.between,
-        curvature_per_m: meniscus.curvature.map(|curvature| half.towards_wetting(curvature)),
+        curvature_per_m: meniscus.curvature.map(|curvature| half.invading.towards_wetting(curvature)),
         contacts_m: [meniscus.curve.point(0.0).into(), meniscus.curve.point(1.0).into()],
         bend_rad: meniscus.bend,
         swept_area_m2: meniscus.swept,

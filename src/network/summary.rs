@@ -19,20 +19,13 @@ pub(crate) struct PoreState {
     pub(crate) is_trapped: bool,
 }
 
-/// The states of all pores.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PoreStates(pub Vec<PoreState>);
-
-impl PoreStates {
-    /// The present states.
-    pub(crate) fn new(config: &Configuration, occupation: &Occupation) -> Self {
-        let pores = config.pores.main_region.len();
-        let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); pores];
-        for (index, element) in occupation.elements.iter().enumerate() {
-            elements_of[config.pores.pore_of[element.region]].push(index);
-        }
-        Self(elements_of.iter().map(|elements| state(occupation, elements)).collect())
+/// The present states of all pores.
+pub(crate) fn pore_states(config: &Configuration, occupation: &Occupation) -> Vec<PoreState> {
+    let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); config.pores.main_region.len()];
+    for (index, element) in occupation.elements.iter().enumerate() {
+        elements_of[config.pores.pore_of[element.region]].push(index);
     }
+    elements_of.iter().map(|elements| state(occupation, elements)).collect()
 }
 
 /// Number of pores invaded in the present half cycle.
@@ -185,14 +178,14 @@ pub(crate) fn network_json(model: &Model) -> Document {
 }
 
 fn half_cycles(cycles: &Cycles) -> Vec<HalfCycleDescription<'_>> {
-    let outcomes = cycles.outcomes();
+    let outcomes = &cycles.record.outcomes;
     let after = |index: usize| outcomes.get(index + 1).map_or(cycles.saturation(), |next| next.first_saturation[0]);
     outcomes
         .iter()
         .zip(cycles.half_cycles())
         .enumerate()
         .map(|(index, (outcome, half))| HalfCycleDescription {
-            process: half.name(),
+            process: half.invading.process(),
             invading: half.invading.name(),
             events: outcome.events,
             saturation_before: outcome.first_saturation[0],

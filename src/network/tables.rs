@@ -5,7 +5,7 @@ use super::films::CurvePoint;
 use super::graph::{Opening, Throat};
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use super::summary::{PoreState, PoreStates};
+use super::summary::{PoreState, pore_states};
 use crate::math::Vec2;
 use crate::table::{Cells, Column, Table};
 
@@ -130,7 +130,7 @@ fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
         columns.insert(5, numbers("volume_m3", config.pores.area.iter().map(|area| depth * area)));
     }
     if let Some(occupation) = occupation {
-        let states = PoreStates::new(config, occupation).0;
+        let states = pore_states(config, occupation);
         columns.extend(state_columns(config, occupation.invading, &states));
         if let Some(films) = &occupation.films {
             let mut volumes = vec![0.0; config.pores.main_region.len()];
@@ -239,7 +239,7 @@ pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
     let number_of = numbers_of_throats(config);
     let rows = rows(cycles);
     let all = || rows.iter();
-    let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
+    let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].invading.process();
     let pressures = |of: fn(&Entry) -> f64| {
         all().map(move |row| {
             let pressure = |entry| config.pressure(cycles.half_cycles()[row.half_cycle].invading, of(entry));
@@ -300,13 +300,13 @@ fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
         };
         std::iter::once(first).chain(events.zip(1..).map(row))
     };
-    cycles.outcomes().iter().enumerate().flat_map(of_half).collect()
+    cycles.record.outcomes.iter().enumerate().flat_map(of_half).collect()
 }
 
 /// `capillary_pressure.csv`: the curve with the films at every pressure; `None` without films.
 pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Table> {
-    let (curve, tension) = (cycles.curve(), config.tension?);
-    let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].name();
+    let (curve, tension) = (&cycles.record.curve, config.tension?);
+    let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].invading.process();
     cycles.has_films().then(|| Table {
         name: "capillary_pressure",
         columns: vec![

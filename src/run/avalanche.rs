@@ -128,7 +128,7 @@ pub(crate) fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
 /// Whether the requested event has happened.
 fn is_so(solver: &NetworkSolver, wanted: Wanted, outlet: &[usize]) -> bool {
     let Some(cycles) = solver.cycles() else { return false };
-    let displacement = cycles.displacement();
+    let displacement = &cycles.displacement;
     let has = |element: usize| displacement.phase(element) == Phase::Invading;
     match wanted {
         Wanted::Breakthrough => outlet.iter().any(|&element| has(element)),

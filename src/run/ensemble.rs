@@ -39,9 +39,6 @@ pub(crate) fn shared_by(case: &Case) -> String {
 /// An extracted network before any displacement.
 pub(crate) struct Ground(setup::Ground);
 
-/// No measure that takes long.
-const NONE: Costly = Costly { permeabilities: false, entry_pressures: false };
-
 /// The error of a case without a network.
 const NO_NETWORK: &str = "the case has no network";
 
@@ -62,12 +59,12 @@ impl Ground {
     /// # Errors
     /// What is wrong, as text.
     pub(crate) fn map(&self, case: &Case) -> Result<Map, String> {
-        Ok(self.sample(case, NONE)?.reference())
+        Ok(self.sample(case)?.reference())
     }
 
-    fn sample(&self, case: &Case, costly: Costly) -> Result<Sample, String> {
+    fn sample(&self, case: &Case) -> Result<Sample, String> {
         let network = network(case).ok_or(NO_NETWORK)?;
-        Sample::on(&self.0, case, network, costly).map_err(|error| error.to_string())
+        Sample::on(&self.0, case, network).map_err(|error| error.to_string())
     }
 
     /// Runs a case on this network, without the costly measures that are left out; `None` if it was interrupted.
@@ -83,7 +80,7 @@ impl Ground {
     ) -> Result<Option<Observed>, String> {
         let schedule = Schedule::new(&case.output, case.end);
         let stop = |time: f64| schedule.next_after(time).map(|stop| (stop.time, stop.due.series));
-        let sample = self.sample(case, costly)?;
+        let sample = self.sample(case)?;
         sample.observed(map, costly, &stop, interrupt).map_err(|error| error.to_string())
     }
 }

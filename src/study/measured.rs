@@ -5,7 +5,7 @@
 use super::definition::{Choice, Study};
 use super::results::RUN_NUMBERS;
 use super::run::PlannedRun;
-use crate::case::measures::{offer_of_comparison, offers, unmeasured};
+use crate::case::measures::{offers, offers_of_comparison, unmeasured};
 use crate::input::Problem;
 
 /// Names of measures that the runs do not have, each with its location in the study file.
@@ -43,7 +43,7 @@ impl Names<'_> {
         let is_known = RUN_NUMBERS.contains(&name) || self.study.parameters().any(|column| column.name == name);
         let case = &planned.case;
         let offers = || match &planned.network {
-            Some(_) => vec![offer_of_comparison()],
+            Some(_) => offers_of_comparison(),
             None => offers(&case.model, Some(&case.geometry), case.steady.is_some()),
         };
         if is_known { None } else { unmeasured(name, &offers()) }

@@ -25,23 +25,19 @@ fn contact_line(observed: &ObservedFilm) -> Vec<Measure> {
     let position = line.map_or(f64::NAN, |line| line.position * scales.length);
     let angle = line.map_or(f64::NAN, |line| (line.slope * scales.slope()).atan().to_degrees());
     let mut found = vec![
-        measure(
-            "contact-line-position",
-            position,
-            "m",
-            "where the tangent at the steepest point on the right meets the wall",
-        ),
-        measure("center-height", film.center_height() * scales.height, "m", "height at x = 0"),
-        measure("contact-angle-deg", angle, "deg", "angle of the tangent at the steepest point on the right"),
+        measure("contact-line-position", position, "m")
+            .by("where the tangent at the steepest point on the right meets the wall"),
+        measure("center-height", film.center_height() * scales.height, "m").by("height at x = 0"),
+        measure("contact-angle-deg", angle, "deg").by("angle of the tangent at the steepest point on the right"),
     ];
     let droplets = observed.profile().peaks();
-    found.push(measure("droplet-count", droplets as f64, "", "maxima of the film above a twentieth of the highest"));
+    found.push(measure("droplet-count", droplets as f64, "").by("maxima of the film above a twentieth of the highest"));
     let (value, method) = spreading(observed, |record| Some(record.position));
-    found.push(measure("contact-line-exponent", value, "", &method));
+    found.push(measure("contact-line-exponent", value, "").by(&method));
     if let Some(last) = film.last_particle() {
-        found.push(measure("last-particle-position", last * scales.length, "m", "position of the last particle"));
+        found.push(measure("last-particle-position", last * scales.length, "m").by("position of the last particle"));
         let (value, method) = spreading(observed, |record| record.last);
-        found.push(measure("last-particle-exponent", value, "", &method));
+        found.push(measure("last-particle-exponent", value, "").by(&method));
     }
     found
 }
@@ -52,23 +48,21 @@ fn rest(observed: &ObservedFilm) -> Vec<Measure> {
     let mut found = Vec::new();
     if let Some(rest) = surroundings.rest {
         let slope = observed.contact_line().map_or(f64::NAN, |line| line.slope / rest);
-        found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest point over the slope at rest"));
+        found.push(measure("contact-angle-ratio", slope, "").by("slope at the steepest point over the slope at rest"));
     }
     if let Some(sides) = surroundings.cap_sides {
         let profile = observed.profile();
         let top = (0..profile.x.len()).max_by(|&i, &j| profile.height[i].total_cmp(&profile.height[j]));
         let cap = top.map_or(f64::NAN, |i| (-2.0 * profile.height[i] * profile.curvature[i] / sides).sqrt());
         let method = "slope at the wall of the parabola through the top of the droplet, over the slope at rest";
-        found.push(measure("cap-angle-ratio", cap, "", method));
+        found.push(measure("cap-angle-ratio", cap, "").by(method));
     }
     if let Some(droplet) = surroundings.equilibrium {
         let distance = observed.profile().distance_to(|x| droplet.height(x - surroundings.right));
-        found.push(measure(
-            "equilibrium-l1-error",
-            distance / droplet.area,
-            "",
-            "area between the profile and that of the droplet at rest, over the area of the droplet",
-        ));
+        found.push(
+            measure("equilibrium-l1-error", distance / droplet.area, "")
+                .by("area between the profile and that of the droplet at rest, over the area of the droplet"),
+        );
     }
     found
 }
@@ -88,14 +82,11 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
             )
         };
         let ratio = law.factor / COX_VOINOV;
-        found.push(measure("cox-voinov-ratio", ratio, "", method("factor of Ca ln(x/d) over 9")));
-        found.push(measure("cox-voinov-length-m", law.length * scales.length, "m", method("d")));
-        found.push(measure(
-            "cox-voinov-error",
-            law.error,
-            "",
-            method("rms misfit of the cubed angle over that at rest"),
-        ));
+        found.push(measure("cox-voinov-ratio", ratio, "").by(method("factor of Ca ln(x/d) over 9")));
+        found.push(measure("cox-voinov-length-m", law.length * scales.length, "m").by(method("d")));
+        found.push(
+            measure("cox-voinov-error", law.error, "").by(method("rms misfit of the cubed angle over that at rest")),
+        );
     }
     let time = observed.film.time();
     if surroundings.is_self_similar
@@ -103,8 +94,8 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
         && let Some(shape) = fit(&observed.profile(), time, line.position)
     {
         let method = format!("f''' = eta/(7 f^2) by shooting, fitted up to {COVERED} of the contact-line position");
-        found.push(measure("similarity-curvature", shape.curvature, "", format!("f''(0): {method}")));
-        found.push(measure("similarity-error", shape.error, "", format!("largest misfit over f(0): {method}")));
+        found.push(measure("similarity-curvature", shape.curvature, "").by(format!("f''(0): {method}")));
+        found.push(measure("similarity-error", shape.error, "").by(format!("largest misfit over f(0): {method}")));
     }
     found
 }
@@ -117,7 +108,7 @@ fn lattice(observed: &ObservedFilm) -> Option<Measure> {
     } else {
         "slope that the particle lattice acts like over that of the film"
     };
-    Some(measure("lattice-slope-ratio", share, "", method))
+    Some(measure("lattice-slope-ratio", share, "").by(method))
 }
 
 /// The exponent of the growth of a length in time, and the method.

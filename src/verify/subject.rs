@@ -119,11 +119,11 @@ impl Subject {
 /// The events of the first half cycle, their number up to breakthrough, and the applied curvature in 1/m then.
 fn first_half_cycle(cycles: &Cycles) -> (Vec<Entry>, Option<(usize, f64)>) {
     let mut cycles = cycles.clone();
-    let sign = cycles.half_cycle().towards_wetting(1.0);
+    let sign = cycles.half_cycle().invading.towards_wetting(1.0);
     let mut breakthrough = None;
     while cycles.half_cycle_index() == 0 && cycles.advance().is_some() {
         let events = cycles.history().iter().filter(|entry| entry.half_cycle == 0).count();
-        let reached = cycles.outcomes().first().and_then(|outcome| outcome.breakthrough);
+        let reached = cycles.record.outcomes.first().and_then(|outcome| outcome.breakthrough);
         if let (None, Some((applied, _))) = (breakthrough, reached) {
             breakthrough = Some((events, sign * applied));
         }

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-use meniscus::case::measures::{offer_of_comparison, offers};
+use meniscus::case::measures::{offers, offers_of_comparison};
 use meniscus::case::preset::{COLD, Preset, WARM};
 use meniscus::case::{load, schema};
 use meniscus::input::Overrides;
@@ -295,11 +295,9 @@ fn every_measure_is_described() {
     let known = cases.iter().flat_map(|case| {
         let loaded = load(&root().join(format!("cases/{case}.toml")), &Overrides::default()).unwrap();
         offers(&loaded.case.model, None, false)
-            .into_iter()
-            .flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()))
     });
-    let known = known.chain(offer_of_comparison().names.iter().map(|name| (*name).to_owned()));
-    let place = "the names that `[[expect]]` knows (src/case/measure_names.rs, src/case/measure_groups.rs)";
+    let known = known.chain(offers_of_comparison()).flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()));
+    let place = "the names that `[[expect]]` knows (src/case/measures.rs, src/case/measure_groups.rs)";
     tells_all(&known.collect(), &there, place);
 }
 

@@ -4,7 +4,7 @@
 use meniscus::geometry::Geometry;
 use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::GeometrySpec;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, Displacement, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -37,14 +37,10 @@ pub fn drained_from(
     let geometry = Geometry::new(spec).unwrap().with_wall_sides(is_open.map(|is_open| !is_open));
     let network = extract(&geometry, is_open).unwrap_or_else(|error| panic!("{name}: {error}"));
     let conditions = Conditions {
-        angle: vec![angle_deg.to_radians(); spec.shapes.len() + 4],
         inlet: [0, 1, 2, 3].map(|side| side == inlet),
         outlet: [0, 1, 2, 3].map(|side| side == outlet),
         trapping: trapping.into(),
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
+        ..Conditions::new(vec![angle_deg.to_radians(); spec.shapes.len() + 4])
     };
     let mut state = Displacement::new(&network, &Pores::merged(&network, 0.95), conditions);
     let (mut breakthrough, mut last) = (f64::INFINITY, 0.0);

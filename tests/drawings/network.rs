@@ -8,7 +8,7 @@ use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::GeometrySpec;
 use meniscus::interface::menisci::{Hand, Passage, Wall, WallPart};
 use meniscus::math::Vec2;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, Displacement, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores, Throat};
 use serde_json::Value;
@@ -26,14 +26,10 @@ fn channel(spec: &GeometrySpec) -> (Network, Pores) {
 
 fn conditions(angle_deg: f64, shapes: usize, trapping: bool) -> Conditions {
     Conditions {
-        angle: vec![angle_deg.to_radians(); shapes + 4],
         inlet: [true, false, false, false],
         outlet: [false, true, false, false],
         trapping: trapping.into(),
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
+        ..Conditions::new(vec![angle_deg.to_radians(); shapes + 4])
     }
 }
 

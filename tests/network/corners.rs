@@ -2,7 +2,7 @@
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::ShapeSpec;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Trapping};
+use meniscus::network::displacement::{Conditions, Displacement, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -19,14 +19,10 @@ fn drained(shapes: Vec<ShapeSpec>, angle_deg: f64) -> Option<[f64; 2]> {
     let geometry: Geometry = grains([3.0, 1.0], shapes.clone()).with_wall_sides([false, false, true, true]);
     let network = extract(&geometry, [true, true, false, false]).ok()?;
     let conditions = Conditions {
-        angle: vec![angle_deg.to_radians(); shapes.len() + 4],
         inlet: LEFT,
         outlet: RIGHT,
         trapping: Trapping::Disconnected,
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
+        ..Conditions::new(vec![angle_deg.to_radians(); shapes.len() + 4])
     };
     let mut displacement = Displacement::new(&network, &Pores::merged(&network, 0.95), conditions);
     let mut breakthrough = f64::NAN;

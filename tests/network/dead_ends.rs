@@ -1,7 +1,7 @@
 //! Dead ends beside a channel: what they hold stays where nothing can leave them, and leaves at 2 cos θ/w where films drain it.
 
 use meniscus::geometry::spec::ShapeSpec;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, Displacement, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -85,16 +85,7 @@ impl DeadEnd {
         let size = if self.turns[0] { [HEIGHT, LENGTH] } else { [LENGTH, HEIGHT] };
         let geometry = grains(size, self.shapes()).with_wall_sides([0, 1, 2, 3].map(|k| !(inlet[k] || outlet[k])));
         let network = extract(&geometry, [0, 1, 2, 3].map(|k| inlet[k] || outlet[k])).unwrap();
-        let conditions = Conditions {
-            angle: vec![angle; 6],
-            inlet,
-            outlet,
-            trapping: trapping.into(),
-            events: Events::All,
-            largest_curvature: f64::INFINITY,
-            measured: Vec::new(),
-            films: CornerFilms::Absent,
-        };
+        let conditions = Conditions { inlet, outlet, trapping: trapping.into(), ..Conditions::new(vec![angle; 6]) };
         Displacement::new(&network, &Pores::merged(&network, 0.95), conditions)
     }
 

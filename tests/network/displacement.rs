@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Event, EventKind, Events, Phase};
+use meniscus::network::displacement::{Conditions, Displacement, Event, EventKind, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
 
@@ -35,14 +35,11 @@ fn network(spec: &GeometrySpec) -> (Arc<Network>, Arc<Pores>, usize) {
 
 fn conditions(angle_deg: f64, shapes: usize, trapping: bool, events: Events) -> Conditions {
     Conditions {
-        angle: vec![angle_deg.to_radians(); shapes],
         inlet: LEFT,
         outlet: RIGHT,
         trapping: trapping.into(),
         events,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
+        ..Conditions::new(vec![angle_deg.to_radians(); shapes])
     }
 }
 

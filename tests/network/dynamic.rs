@@ -5,7 +5,7 @@ use std::sync::Arc;
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events};
+use meniscus::network::displacement::{Conditions, Displacement};
 use meniscus::network::dynamic::{Drive, Dynamic, StepEnd, Terms};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
@@ -43,14 +43,10 @@ impl Pack {
 
     fn displacement(&self, angle_deg: f64, inlet: [bool; 4], trapping: bool) -> Displacement {
         let conditions = Conditions {
-            angle: vec![angle_deg.to_radians(); self.walls],
             inlet,
             outlet: RIGHT,
             trapping: trapping.into(),
-            events: Events::All,
-            largest_curvature: f64::INFINITY,
-            measured: Vec::new(),
-            films: CornerFilms::Absent,
+            ..Conditions::new(vec![angle_deg.to_radians(); self.walls])
         };
         Displacement::new(&self.network, &self.pores, conditions)
     }

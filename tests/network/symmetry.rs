@@ -8,7 +8,7 @@ use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{Capsule, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use meniscus::math::Vec2;
 use meniscus::network::conductance::resistances;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
 use rayon::prelude::*;
@@ -114,14 +114,11 @@ impl Outcome {
                 sides
             };
             Conditions {
-                angle: vec![scene.angle_deg.to_radians(); scene.grains.len() + 4],
                 inlet: on(0),
                 outlet: on(1),
                 trapping: scene.trapping.into(),
-                events: Events::All,
-                largest_curvature: f64::INFINITY,
-                measured: Vec::new(),
                 films: if scene.grains.len().is_multiple_of(3) { CornerFilms::Drain } else { CornerFilms::Absent },
+                ..Conditions::new(vec![scene.angle_deg.to_radians(); scene.grains.len() + 4])
             }
         };
         let pores = Pores::merged(network, 0.95);

@@ -50,6 +50,20 @@ pub struct MeasuredBurst {
 }
 
 impl Conditions {
+    /// All events and no open sides; nothing is trapped.
+    pub fn new(angle: Vec<f64>) -> Self {
+        Self {
+            angle,
+            inlet: [false; 4],
+            outlet: [false; 4],
+            trapping: Trapping::None,
+            events: Events::All,
+            largest_curvature: f64::INFINITY,
+            measured: Vec::new(),
+            films: CornerFilms::Absent,
+        }
+    }
+
     /// The curvature in 1/m at which a meniscus bursts through a throat, `formula` by the formula.
     pub(crate) fn burst(&self, throat: Option<usize>, formula: f64) -> f64 {
         /// Relative differences that come from rounding on another machine.

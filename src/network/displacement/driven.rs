@@ -2,13 +2,11 @@
 
 use super::event::{Candidate, EventKind};
 use super::loops::GateId;
+use super::mesh::FrontId;
 use super::progress::Displacement;
 use crate::interface::menisci::Passage;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
-
-/// A gate and the end at which a meniscus enters.
-pub(crate) type FrontId = (usize, usize);
 
 /// A pending event of a meniscus, or of two that meet.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,8 +81,8 @@ impl Displacement {
     }
 
     /// The passage of a hypothetical meniscus entering an element through a gate, and the curvature in 1/m of its own event.
-    pub(crate) fn future_front(&self, (gate, end): FrontId) -> (Passage, f64) {
-        let (passage, obstacles) = self.passage_at(&self.conditions.angle, &self.mesh, (gate, end), Vec2::zeros());
+    pub(crate) fn future_front(&self, front: FrontId) -> (Passage, f64) {
+        let (passage, obstacles) = self.passage(&self.mesh, front, Vec2::zeros());
         let own = self.own_event(&passage, &obstacles).1;
         (passage, own)
     }

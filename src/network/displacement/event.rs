@@ -1,5 +1,6 @@
 //! Types of events, and their order.
 
+use super::mesh::FrontId;
 use crate::interface::menisci::Hand;
 
 /// The type of an event.
@@ -41,7 +42,7 @@ pub(super) struct Candidate {
     /// The end of the gate at which the meniscus enters.
     pub(crate) to: usize,
     /// The meniscus to meet, and its side.
-    pub(crate) partner: Option<((usize, usize), Hand)>,
+    pub(crate) partner: Option<(FrontId, Hand)>,
     /// Whether both have met and merged.
     pub(crate) is_joined: bool,
 }

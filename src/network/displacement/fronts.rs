@@ -2,7 +2,7 @@
 
 use super::event::{Candidate, EventKind};
 use super::loops::Loop;
-use super::mesh::Mesh;
+use super::mesh::{FrontId, Mesh};
 use super::progress::{Displacement, Front};
 use super::walls::{Sides, gate_walls, is_same};
 use crate::case::network::Events;
@@ -17,7 +17,7 @@ type SeamOf = fn(&Loop, usize) -> Vec2;
 /// The next meniscus along a wall.
 pub(super) struct Neighbor {
     /// Its gate and the end at which it enters.
-    pub(crate) front: (usize, usize),
+    pub(crate) front: FrontId,
     /// Length of wall between both gates in m.
     shared: f64,
     /// Shift in m from its frame to that of the meniscus of which it is the neighbor.
@@ -27,9 +27,9 @@ pub(super) struct Neighbor {
 }
 
 impl Displacement {
-    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, shifted by `offset` in m.
-    fn passage(&self, mesh: &Mesh, gate: usize, to: usize, offset: Vec2) -> (Passage, Vec<Curve>) {
-        self.passage_at(&self.conditions.angle, mesh, (gate, to), offset)
+    /// The passage of a meniscus, and the walls ahead, shifted by `offset` in m.
+    pub(super) fn passage(&self, mesh: &Mesh, front: FrontId, offset: Vec2) -> (Passage, Vec<Curve>) {
+        self.passage_at(&self.conditions.angle, mesh, front, offset)
     }
 
     /// The same with other contact angles in rad.
@@ -37,7 +37,7 @@ impl Displacement {
         &self,
         angles: &[f64],
         mesh: &Mesh,
-        (gate, to): (usize, usize),
+        (gate, to): FrontId,
         offset: Vec2,
     ) -> (Passage, Vec<Curve>) {
         let walls = gate_walls(mesh, gate, to, &self.centers);
@@ -53,7 +53,7 @@ impl Displacement {
 
     /// Places a meniscus in a gate, to enter the element at its end `to`, with its pending events.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
-        let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
+        let (passage, obstacles) = self.passage(mesh, (gate, to), Vec2::zeros());
         let (mut kind, mut own) = self.own_event(&passage, &obstacles);
         // A touch before a measured burst remains a touch.
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
@@ -80,12 +80,12 @@ impl Displacement {
     }
 
     /// Overlaps of a new meniscus with its neighbors on both walls.
-    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): (usize, usize), passage: &Passage, own: f64) {
+    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): FrontId, passage: &Passage, own: f64) {
         for hand in [Hand::Left, Hand::Right] {
             let Some(neighbor) = self.neighbor(mesh, (gate, to), hand) else { continue };
             let (other, end) = neighbor.front;
             let Some(front) = &self.fronts[other][end] else { continue };
-            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, other, end, neighbor.offset).0);
+            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, (other, end), neighbor.offset).0);
             let facing = moved.as_ref().unwrap_or(&front.passage);
             let (a, b) = if hand == Hand::Left { (passage, facing) } else { (facing, passage) };
             if let Some(curvature) = overlap(a, b, neighbor.shared, own.min(front.own)) {
@@ -97,7 +97,7 @@ impl Displacement {
     }
 
     /// The next meniscus along a wall of a gate, ahead of the meniscus that enters it, with nothing but the defending phase in between.
-    pub(super) fn neighbor(&self, mesh: &Mesh, (gate, to): (usize, usize), hand: Hand) -> Option<Neighbor> {
+    pub(super) fn neighbor(&self, mesh: &Mesh, (gate, to): FrontId, hand: Hand) -> Option<Neighbor> {
         let (mut index, slot) = mesh.gates[gate].crossings[to];
         let next = |index: usize, k: usize| (k + 1) % mesh.loops[index].walls.len();
         let before = |index: usize, k: usize| (k + mesh.loops[index].walls.len() - 1) % mesh.loops[index].walls.len();
@@ -138,7 +138,7 @@ impl Displacement {
 
     /// Curvature in 1/m of the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both \[CieplakRobbins1988\]. Within
     /// one element it advances at once.
-    pub(super) fn joined_event(&self, mesh: &Mesh, front: (usize, usize), hand: Hand, neighbor: &Neighbor) -> f64 {
+    pub(super) fn joined_event(&self, mesh: &Mesh, front: FrontId, hand: Hand, neighbor: &Neighbor) -> f64 {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;
         }
@@ -151,12 +151,12 @@ impl Displacement {
     pub(super) fn joined_passage(
         &self,
         mesh: &Mesh,
-        front: (usize, usize),
+        front: FrontId,
         hand: Hand,
         neighbor: &Neighbor,
     ) -> (Passage, Vec<Curve>) {
-        let (one, mut obstacles) = self.passage(mesh, front.0, front.1, Vec2::zeros());
-        let (other, beyond) = self.passage(mesh, neighbor.front.0, neighbor.front.1, neighbor.offset);
+        let (one, mut obstacles) = self.passage(mesh, front, Vec2::zeros());
+        let (other, beyond) = self.passage(mesh, neighbor.front, neighbor.offset);
         obstacles.extend(beyond);
         let (left, right) = if hand == Hand::Left { (&other, &one) } else { (&one, &other) };
         let own = |curve: &Curve| {

@@ -8,6 +8,9 @@ use super::loops::{Crossing, GateId, Loop, divide};
 use crate::math::Vec2;
 use crate::network::graph::{Edge, Network, Pores, Region};
 
+/// A gate, and its end in an element: that at which a meniscus enters it.
+pub(crate) type FrontId = (usize, usize);
+
 /// A part of the pore space that is filled at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Element {
@@ -16,7 +19,7 @@ pub(super) struct Element {
     /// Sides of the domain at which it is open: left, right, bottom, top.
     pub(crate) open: [bool; 4],
     /// Its gates with the end that lies in it, in order.
-    pub(crate) gates: Vec<(usize, usize)>,
+    pub(crate) gates: Vec<FrontId>,
 }
 
 /// A gate between two elements.
@@ -41,7 +44,7 @@ pub(super) struct Mesh {
     /// The element of each loop.
     pub(crate) element_of: Vec<usize>,
     /// The gate of each crossing of each loop, with the end that lies there; `None` at openings and dissolved throats.
-    pub(crate) gate_at: Vec<Vec<Option<(usize, usize)>>>,
+    pub(crate) gate_at: Vec<Vec<Option<FrontId>>>,
     /// For each crossing of each loop: the loop and the crossing on its other side, and the shift in m from the frame of this loop to that of
     /// the other one; `None` at openings.
     pub(crate) twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,

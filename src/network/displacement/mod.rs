@@ -28,8 +28,9 @@ mod wall_chains;
 mod walls;
 
 pub use self::conditions::{Conditions, CornerFilms, MeasuredBurst};
-pub(crate) use self::driven::{Advance, FrontId, GateFacts};
+pub(crate) use self::driven::{Advance, GateFacts};
 pub use self::event::EventKind;
+pub(crate) use self::mesh::FrontId;
 pub(crate) use self::progress::Division;
 pub use self::progress::{Displacement, Element, Phase};
 pub use self::sequence::Event;

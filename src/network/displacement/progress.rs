@@ -73,7 +73,7 @@ pub struct Displacement {
 /// The division of the pore space into elements, independent of contact angles.
 #[derive(Debug, Clone)]
 pub(crate) struct Division {
-    mesh: Arc<Mesh>,
+    pub(super) mesh: Arc<Mesh>,
     elements: Arc<Vec<Element>>,
     centers: Arc<Vec<Vec2>>,
 }
@@ -101,9 +101,8 @@ impl Displacement {
 
     /// The same in a pore space already divided for these events.
     pub(crate) fn within(division: &Division, conditions: Conditions) -> Self {
-        let Division { mesh, elements, centers } = division.clone();
-        let (invaded, closed) = (vec![false; mesh.elements.len()], vec![false; mesh.gates.len()]);
-        Self::begun((mesh, elements, centers), conditions, invaded, closed)
+        let Mesh { elements, gates, .. } = &*division.mesh;
+        Self::begun(division.clone(), conditions, vec![false; elements.len()], vec![false; gates.len()])
     }
 
     /// The other phase invades from the present state. Its elements without a connection to an inlet take no part until they are reached, or,
@@ -116,15 +115,17 @@ impl Displacement {
         let held =
             self.connection.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
         let held = held.collect();
-        Self { held, ..Self::begun((self.mesh, self.elements, self.centers), conditions, invaded, self.closed) }
+        let division = Division { mesh: self.mesh, elements: self.elements, centers: self.centers };
+        Self { held, ..Self::begun(division, conditions, invaded, self.closed) }
     }
 
     pub(super) fn begun(
-        (mesh, elements, centers): (Arc<Mesh>, Arc<Vec<Element>>, Arc<Vec<Vec2>>),
+        division: Division,
         conditions: Conditions,
         mut invaded: Vec<bool>,
         mut closed: Vec<bool>,
     ) -> Self {
+        let Division { mesh, elements, centers } = division;
         let count = mesh.elements.len();
         let opens = |sides: [bool; 4]| -> Vec<bool> {
             mesh.elements.iter().map(|element| (0..4).any(|side| element.open[side] && sides[side])).collect()
@@ -282,7 +283,7 @@ impl Displacement {
     /// region; `None` if the throat is not a gate.
     pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
         let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
-        Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
+        Some(self.passage(&self.mesh, (gate, to), Vec2::zeros()))
     }
 
     /// Curvature in 1/m at which menisci burst through each throat, the larger of both directions, under other conditions; NaN for throats that are not gates.

@@ -67,7 +67,7 @@ impl Displacement {
 
     /// Places a meniscus in a closed gate with its own phase on the other side, to reconnect both.
     pub(super) fn queue_reconnection(&mut self, mesh: &Mesh, gate: usize, to: usize) {
-        let (passage, _) = self.passage_at(&self.conditions.angle, mesh, (gate, to), Vec2::zeros());
+        let (passage, _) = self.passage(mesh, (gate, to), Vec2::zeros());
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let own = self.conditions.burst(mesh.gates[gate].throat, formula);
         let kind = EventKind::Reconnection;

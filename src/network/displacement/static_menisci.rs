@@ -13,8 +13,8 @@ use super::conditions::Conditions;
 use super::event::{Candidate, EventKind};
 use super::fronts::Neighbor;
 use super::loops::GateId;
-use super::mesh::Gate;
-use super::progress::Displacement;
+use super::mesh::{FrontId, Gate};
+use super::progress::{Displacement, Division};
 use super::wall_chains::{Side, WallChains};
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Meniscus, Passage};
@@ -37,7 +37,7 @@ pub(crate) struct StaticMeniscus {
     /// Length of wall in m from the gate to the left and the right contact, each from its own gate.
     pub(crate) advances: [f64; 2],
     /// Its gate, or both gates of a merged meniscus, with the ends at which they enter.
-    gates: Vec<(usize, usize)>,
+    gates: Vec<FrontId>,
 }
 
 /// All interfaces, and the boundary of the invading phase.
@@ -55,7 +55,7 @@ pub(crate) struct Interfaces {
 /// Two menisci that have met and merged.
 struct Pair {
     /// Their gates with the ends at which they enter.
-    gates: [(usize, usize); 2],
+    gates: [FrontId; 2],
     /// The passage between the outer walls of both.
     passage: Passage,
 }
@@ -76,16 +76,16 @@ pub(crate) struct Beginning {
 impl Displacement {
     /// A displacement with given initial phases; like [`new`](Self::new), it fills elements open at an inlet.
     pub(crate) fn beginning(network: &Network, pores: &Pores, conditions: Conditions, beginning: &Beginning) -> Self {
-        let fresh = Self::new(network, pores, Conditions { inlet: [false; 4], ..conditions.clone() });
-        let mut invaded = vec![false; fresh.mesh.elements.len()];
-        let mut held = vec![f64::NAN; fresh.mesh.elements.len()];
-        for (index, &element) in fresh.mesh.element_of.iter().enumerate() {
+        let division = Division::of(network, pores, conditions.events);
+        let mut invaded = vec![false; division.mesh.elements.len()];
+        let mut held = vec![f64::NAN; division.mesh.elements.len()];
+        for (index, &element) in division.mesh.element_of.iter().enumerate() {
             invaded[element] |= beginning.invaded[index];
             held[element] = beginning.held[index];
         }
         let is_closed = |gate: &Gate| gate.throat.is_some_and(|throat| beginning.closed.contains(&throat));
-        let closed = fresh.mesh.gates.iter().map(is_closed).collect();
-        let mut begun = Self::begun((fresh.mesh, fresh.elements, fresh.centers), conditions, invaded, closed);
+        let closed = division.mesh.gates.iter().map(is_closed).collect();
+        let mut begun = Self::begun(division, conditions, invaded, closed);
         (begun.applied, begun.held) = (beginning.applied, held);
         begun
     }
@@ -94,7 +94,6 @@ impl Displacement {
     /// lowest at which one of them would advance, since its area is constant; NaN if not trapped.
     fn trapped_curvatures(&self) -> Vec<f64> {
         let mesh = &self.mesh;
-        let angles = &self.conditions.angle;
         let mut found = vec![f64::NAN; mesh.elements.len()];
         let mut is_visited = vec![false; mesh.elements.len()];
         for first in (0..mesh.elements.len()).filter(|&element| self.connection.trapped[element]) {
@@ -109,7 +108,7 @@ impl Displacement {
                 for &(gate, to) in &mesh.elements[element].gates {
                     let beyond = mesh.element(gate, 1 - to);
                     if self.invaded[beyond] {
-                        let (passage, obstacles) = self.passage_at(angles, mesh, (gate, to), Vec2::zeros());
+                        let (passage, obstacles) = self.passage(mesh, (gate, to), Vec2::zeros());
                         curvature = curvature.min(self.own_event(&passage, &obstacles).1);
                     } else if self.connection.trapped[beyond] && !std::mem::replace(&mut is_visited[beyond], true) {
                         region.push(beyond);
@@ -172,7 +171,7 @@ impl Displacement {
     fn static_menisci(&self, applied: f64, trapped: &[f64]) -> Vec<StaticMeniscus> {
         let mesh = &self.mesh;
         let joined = self.joined();
-        let is_joined = |front: (usize, usize)| joined.iter().any(|pair| pair.gates.contains(&front));
+        let is_joined = |front: FrontId| joined.iter().any(|pair| pair.gates.contains(&front));
         let mut found = Vec::new();
         for (gate, to) in (0..mesh.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]) {
             let (from, into) = (mesh.element(gate, 1 - to), mesh.element(gate, to));
@@ -186,7 +185,7 @@ impl Displacement {
             };
             let curvature = if curvature.is_nan() { applied } else { curvature };
             let own = self.fronts[gate][to].as_ref().map(|front| front.passage.clone());
-            let passage = own.unwrap_or_else(|| self.passage_of((gate, to)));
+            let passage = own.unwrap_or_else(|| self.passage(mesh, (gate, to), Vec2::zeros()).0);
             let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
             found.extend(self.at(&passage, curvature.min(burst), &[(gate, to)]));
         }
@@ -197,7 +196,7 @@ impl Displacement {
     }
 
     /// The meniscus of a passage at a curvature, or the chords of its gates.
-    fn at(&self, passage: &Passage, curvature: f64, gates: &[(usize, usize)]) -> Vec<StaticMeniscus> {
+    fn at(&self, passage: &Passage, curvature: f64, gates: &[FrontId]) -> Vec<StaticMeniscus> {
         let found = passage.at(curvature).filter(|it: &Meniscus| it.bend.abs() < PI && it.chord() > 0.0);
         let Some(meniscus) = found else { return gates.iter().map(|&gate| self.chord(gate)).collect() };
         let is_one = gates.len() == 1;
@@ -214,7 +213,7 @@ impl Displacement {
     }
 
     /// The chord of a gate as a substitute for its meniscus.
-    fn chord(&self, (gate, to): (usize, usize)) -> StaticMeniscus {
+    fn chord(&self, (gate, to): FrontId) -> StaticMeniscus {
         let sides = self.mesh.gates[gate].crossings;
         let crossing = self.mesh.loops[sides[to].0].crossings[sides[to].1];
         StaticMeniscus {
@@ -229,10 +228,6 @@ impl Displacement {
         }
     }
 
-    fn passage_of(&self, (gate, to): (usize, usize)) -> Passage {
-        self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()).0
-    }
-
     /// Pairs of merged menisci.
     fn joined(&self) -> Vec<Pair> {
         let mut waiting: Vec<_> =
@@ -242,7 +237,7 @@ impl Displacement {
         for candidate in waiting.into_iter().rev() {
             let Some((other, hand)) = candidate.partner else { continue };
             let one = (candidate.gate, candidate.to);
-            let is_new = |front: (usize, usize)| pairs.iter().all(|pair| !pair.gates.contains(&front));
+            let is_new = |front: FrontId| pairs.iter().all(|pair| !pair.gates.contains(&front));
             if self.fronts[one.0][one.1].is_none() || !is_new(one) || !is_new(other) {
                 continue;
             }

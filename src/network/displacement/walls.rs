@@ -94,7 +94,7 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
             let stretch: Vec<WallPiece> = part.walls[wall].iter().map(|piece| piece.shifted(by)).collect();
             let mut followed = follow(&stretch, backwards, center);
             if (count > 2 || goes_around) && followed.rest.is_empty() {
-                extend(mesh, (index, wall, by), backwards, &mut followed.parts);
+                extend(mesh, index, wall, by, backwards, &mut followed.parts);
             }
             followed
         };
@@ -106,7 +106,7 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
 }
 
 /// Follows a wall past the gate at the end of its stretch, as long as it is convex and up to half a turn.
-fn extend(mesh: &Mesh, (mut index, mut wall, by): (usize, usize, Vec2), backwards: bool, parts: &mut Vec<WallPiece>) {
+fn extend(mesh: &Mesh, mut index: usize, mut wall: usize, by: Vec2, backwards: bool, parts: &mut Vec<WallPiece>) {
     if let Some(last) = parts.last_mut().filter(|last| last.whole.is_closed()) {
         last.curve = half_around(&last.curve, backwards);
         return;

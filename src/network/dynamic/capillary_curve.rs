@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::terms::Terms;
 use crate::interface::menisci::Passage;
 
 /// Points of a curve; they are denser towards the event, where the curvature of a burst levels off.
@@ -56,10 +57,10 @@ impl CapillaryCurve {
         })
     }
 
-    /// The same with the curvature by floor and lid: `total` maps a curvature in the plane to the total one, both in 1/m.
-    pub(crate) fn between(mut self, total: impl Fn(f64) -> f64) -> Self {
-        self.total.iter_mut().for_each(|curvature| *curvature = total(*curvature));
-        self
+    /// The same with the curvature by floor and lid.
+    pub(crate) fn between(mut self, terms: &Terms) -> Arc<Self> {
+        self.total.iter_mut().for_each(|curvature| *curvature = terms.with_depth(*curvature));
+        Arc::new(self)
     }
 
     /// Curvature in the plane in 1/m at a swept area in m².

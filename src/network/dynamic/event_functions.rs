@@ -188,10 +188,7 @@ impl Dynamic {
             full,
             passes: false,
             first: first.map(|_| points[points.len() - 1].0),
-            curve: Arc::new(
-                CapillaryCurve::of_body(&points, 1.0 / (CLOSED * own * own.sqrt()))
-                    .between(|curvature| self.terms.with_depth(curvature)),
-            ),
+            curve: CapillaryCurve::of_body(&points, 1.0 / (CLOSED * own * own.sqrt())).between(&self.terms),
         }
     }
 

@@ -8,33 +8,20 @@ use super::{Dynamic, Filling, Meniscus, Occurrence};
 use crate::network::cycles::Invasion;
 use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
 
-/// A meniscus that will form in a gate of a filling element once it is full.
-pub(super) struct FutureMeniscus<'a> {
+/// A meniscus that forms in a gate of an element when it is full.
+pub(super) struct NewMeniscus {
     pub(crate) front: FrontId,
-    pub(crate) curve: &'a CapillaryCurve,
-    /// Free area in m² ahead of it.
-    free: f64,
-}
-
-impl FutureMeniscus<'_> {
-    /// Swept area in m² at a curvature in 1/m.
-    pub(crate) fn area(&self, curvature: f64) -> f64 {
-        self.curve.area(curvature.min(self.curve.end().1)).min(self.free)
-    }
-}
-
-/// A meniscus that forms in a gate of an element that has become full.
-struct NewMeniscus {
-    front: FrontId,
-    curve: CapillaryCurve,
-    /// Upper bound of its curvature in 1/m: that of the filling phase if the element ahead is cut off from the outlet.
+    pub(crate) curve: Arc<CapillaryCurve>,
+    /// Upper bound of its curvature in 1/m.
     most: f64,
+    /// Upper bound of its swept area in m².
+    free: f64,
 }
 
 impl NewMeniscus {
     /// Swept area in m² at a curvature in 1/m.
-    fn area(&self, curvature: f64) -> f64 {
-        self.curve.area(curvature.min(self.most))
+    pub(crate) fn area(&self, curvature: f64) -> f64 {
+        self.curve.area(curvature.min(self.most)).min(self.free)
     }
 }
 
@@ -64,7 +51,7 @@ impl Dynamic {
     }
 
     /// The menisci that will form in the gates of a filling element once it is full.
-    pub(super) fn future_menisci(&self, element: usize) -> Vec<FutureMeniscus<'_>> {
+    pub(super) fn future_menisci(&self, element: usize) -> Vec<NewMeniscus> {
         let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
         ahead
             .map(|(front, curve)| {
@@ -73,7 +60,7 @@ impl Dynamic {
                     + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>()
                     + self.passed_in_outlet(into);
                 let free = (self.displacement.elements()[into].area - held).max(0.0);
-                FutureMeniscus { front: *front, curve, free }
+                NewMeniscus { front: *front, curve: Arc::clone(curve), most: curve.end().1, free }
             })
             .collect()
     }
@@ -193,7 +180,7 @@ impl Dynamic {
     }
 
     /// The menisci that may form in the gates of an element once it is full.
-    pub(super) fn menisci_ahead(&self, element: usize) -> Vec<(FrontId, CapillaryCurve)> {
+    pub(super) fn menisci_ahead(&self, element: usize) -> Vec<(FrontId, Arc<CapillaryCurve>)> {
         let gates = self.displacement.gates_of(element).iter().map(|&(gate, end)| (gate, 1 - end));
         let ahead = gates.filter(|&front| self.ahead_of(front) != element && !self.is_invaded(self.ahead_of(front)));
         ahead
@@ -250,8 +237,9 @@ impl Dynamic {
             .into_iter()
             .filter(|(front, _)| self.displacement.front(*front).is_some())
             .map(|(front, curve)| {
-                let is_cut_off = cut_off[self.ahead_of(front)];
-                NewMeniscus { front, curve, most: if is_cut_off { filling.curvature } else { f64::INFINITY } }
+                // The phase that fills an element cut off from the outlet rises no further.
+                let most = if cut_off[self.ahead_of(front)] { filling.curvature } else { f64::INFINITY };
+                NewMeniscus { front, curve, most, free: f64::INFINITY }
             })
             .collect();
         // The excess goes to the first to reach its event among those with a path to the outlet.
@@ -266,7 +254,7 @@ impl Dynamic {
                 area += std::mem::take(&mut left);
             }
             self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
-            self.curves[front.0][front.1] = Some(Arc::new(curve));
+            self.curves[front.0][front.1] = Some(curve);
             if self.state.filling[self.ahead_of(front)].as_ref().is_some_and(|filling| filling.is_joined) {
                 self.burst(front);
             }

@@ -98,12 +98,8 @@ impl Dynamic {
             let rate = self.filling_rate(graph, &filling_pore, resistance);
             let is_quick = rate * self.state.last_steps[0] * QUICK > filling_pore.full - filling_pore.area;
             let passes = is_quick && only == Some(element);
-            let constant = || {
-                Arc::new(
-                    CapillaryCurve::constant(filling_pore.curve.curvature(filling_pore.area))
-                        .between(|curvature| self.terms.with_depth(curvature)),
-                )
-            };
+            let constant =
+                || CapillaryCurve::constant(filling_pore.curve.curvature(filling_pore.area)).between(&self.terms);
             Some(FillingPore {
                 passes,
                 curve: if passes { Arc::clone(&filling_pore.curve) } else { constant() },

@@ -22,8 +22,6 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
     };
     let pressures = dynamic.history().iter().map(|event| event.pressure).filter(|pressure| pressure.is_finite());
     let largest = pressures.fold(f64::NAN, f64::max);
-    let saturation = model.saturation();
-    let wetting = if model.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
     let trapped: f64 = dynamic
         .trapped()
         .into_iter()
@@ -36,76 +34,35 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
     let numbers = series.column("capillary_number").filter(|ca| ca.is_finite()).collect::<Vec<_>>();
     let mean = numbers.iter().skip(1).sum::<f64>() / numbers.len().saturating_sub(1) as f64;
     found.extend([
-        measure("breakthrough-time-s", of(|it| it.time), "s", reached),
-        measure(
-            "breakthrough-pressure-difference-Pa",
-            of(|it| it.pressure),
-            "Pa",
-            format!("pressure at the inlet less that at the outlet, {reached}"),
-        ),
-        measure(
-            "largest-pressure-difference-Pa",
-            largest,
-            "Pa",
-            "largest pressure at the inlet less that at the outlet, at all events",
-        ),
-        measure(
-            "saturation-at-breakthrough",
-            of(|it| it.saturation),
-            "",
-            format!("share of the pore space that the invading phase holds, {reached}"),
-        ),
-        measure("injected-pore-volumes", model.injected(), "", "area that passed the inlet over that of the pores"),
-        measure(
-            "final-wetting-saturation",
-            wetting,
-            "",
-            "share of the pore space that the wetting phase holds at the end",
-        ),
-        measure(
-            "trapped-saturation",
-            trapped / dynamic.pore_area(),
-            "",
-            "share of the pore space that holds the displaced phase and from which none leads on to the outlet",
-        ),
-        measure(
-            "capillary-number",
-            mean,
-            "",
+        measure("breakthrough-time-s", of(|it| it.time), "s").by(reached),
+        measure("breakthrough-pressure-difference-Pa", of(|it| it.pressure), "Pa")
+            .by(format!("pressure at the inlet less that at the outlet, {reached}")),
+        measure("largest-pressure-difference-Pa", largest, "Pa")
+            .by("largest pressure at the inlet less that at the outlet, at all events"),
+        measure("saturation-at-breakthrough", of(|it| it.saturation), "")
+            .by(format!("share of the pore space that the invading phase holds, {reached}")),
+        measure("injected-pore-volumes", model.injected(), "").by("area that passed the inlet over that of the pores"),
+        measure("final-wetting-saturation", model.wetting_saturation(), "")
+            .by("share of the pore space that the wetting phase holds at the end"),
+        measure("trapped-saturation", trapped / dynamic.pore_area(), "")
+            .by("share of the pore space that holds the displaced phase and from which none leads on to the outlet"),
+        measure("capillary-number", mean, "").by(
             "viscosity of the invading phase x inflow / (length of the inlet side x tension), mean over the records",
         ),
-        measure(
-            "viscosity-ratio",
-            terms.viscosity[0] / terms.viscosity[1],
-            "",
-            "viscosity of the invading phase over that of the displaced one",
-        ),
-        measure(
-            "finger-width-m",
-            fingers.width,
-            "m",
-            "mean on 64 lines across the flow, from the first to the last pore of a finger, solids in it included",
-        ),
-        measure(
-            "fingers-per-line",
-            fingers.count,
-            "",
-            "mean number of fingers on the lines that the invading phase has reached",
-        ),
-        measure("interface-length-m", dynamic.interface_length(), "m", "sum of the lengths of all menisci at the end"),
-        measure(
-            "balance-error",
-            dynamic.balance_error(),
-            "",
-            "area that the invading phase gained less what flowed in and out, over what it holds",
-        ),
-        measure("events", dynamic.history().len() as f64, "", "bursts, touches and overlaps"),
-        measure(
-            "solves-per-event",
-            dynamic.state.solves as f64 / dynamic.history().len().max(1) as f64,
-            "",
-            "matrices factored and solved with, over the number of events",
-        ),
+        measure("viscosity-ratio", terms.viscosity[0] / terms.viscosity[1], "")
+            .by("viscosity of the invading phase over that of the displaced one"),
+        measure("finger-width-m", fingers.width, "m")
+            .by("mean on 64 lines across the flow, from the first to the last pore of a finger, solids in it \
+                 included"),
+        measure("fingers-per-line", fingers.count, "")
+            .by("mean number of fingers on the lines that the invading phase has reached"),
+        measure("interface-length-m", dynamic.interface_length(), "m")
+            .by("sum of the lengths of all menisci at the end"),
+        measure("balance-error", dynamic.balance_error(), "")
+            .by("area that the invading phase gained less what flowed in and out, over what it holds"),
+        measure("events", dynamic.history().len() as f64, "").by("bursts, touches and overlaps"),
+        measure("solves-per-event", dynamic.state.solves as f64 / dynamic.history().len().max(1) as f64, "")
+            .by("matrices factored and solved with, over the number of events"),
     ]);
     found
 }
@@ -131,7 +88,6 @@ pub(crate) fn events(model: &DynamicModel) -> Table {
         |curvature| model.quasi_static.config.pressure(model.invading, model.invading.towards_wetting(curvature));
     let number_of = numbers_of_throats(&model.quasi_static.config);
     let history = || model.dynamic.history().iter();
-    let wetting = |invading: f64| if model.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
     let nothing = || std::iter::once(f64::NAN);
     let throats = history().map(|event| event.throat.and_then(|throat| number_of[throat]));
     let saturations = std::iter::once(model.dynamic.first_saturation()).chain(history().map(|event| event.saturation));
@@ -151,7 +107,7 @@ pub(crate) fn events(model: &DynamicModel) -> Table {
             // Pressure at the inlet minus that at the outlet
             numbers("pressure_difference_Pa", nothing().chain(history().map(|event| event.pressure))),
             // Wetting saturation after the event
-            numbers("saturation", saturations.map(wetting)),
+            numbers("saturation", saturations.map(|saturation| model.invading.saturation(saturation))),
         ],
     }
 }

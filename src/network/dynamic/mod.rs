@@ -168,7 +168,7 @@ pub struct Dynamic {
     first_area: f64,
     curves: Vec<[Option<Arc<CapillaryCurve>>; 2]>,
     /// Of filling elements: menisci that may form in their gates once they are full.
-    ahead: Vec<Vec<(FrontId, CapillaryCurve)>>,
+    ahead: Vec<Vec<(FrontId, Arc<CapillaryCurve>)>>,
     advances: Vec<Advance>,
     /// Overlaps of menisci that will form when filling elements are full.
     meetings_to_come: Vec<Advance>,
@@ -225,7 +225,7 @@ impl Dynamic {
             if let Some(curve) = self.rise_of(front) {
                 let area = curve.area(0.0_f64.max(curve.start().1));
                 self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
-                self.curves[front.0][front.1] = Some(Arc::new(curve));
+                self.curves[front.0][front.1] = Some(curve);
             }
         }
         let invaded = (0..self.state.filling.len()).filter(|&e| self.is_invaded(e)).collect::<Vec<_>>();
@@ -253,7 +253,7 @@ impl Dynamic {
         state.completed.iter().for_each(|&element| self.finish(element));
         self.state = state;
         for (gate, end) in self.displacement.waiting().collect::<Vec<_>>() {
-            self.curves[gate][end] = self.rise_of((gate, end)).map(Arc::new);
+            self.curves[gate][end] = self.rise_of((gate, end));
         }
         for element in (0..elements).filter(|&element| self.state.filling[element].is_some()).collect::<Vec<_>>() {
             self.ahead[element] = self.menisci_ahead(element);
@@ -262,16 +262,13 @@ impl Dynamic {
         Ok(())
     }
 
-    fn rise_of(&self, front: FrontId) -> Option<CapillaryCurve> {
+    fn rise_of(&self, front: FrontId) -> Option<Arc<CapillaryCurve>> {
         let (passage, own) = self.displacement.front(front)?;
         self.curve(front, passage, own)
     }
 
-    fn curve(&self, front: FrontId, passage: &Passage, own: f64) -> Option<CapillaryCurve> {
-        Some(
-            CapillaryCurve::new(passage, own, self.gates[front.0].width)?
-                .between(|curvature| self.terms.with_depth(curvature)),
-        )
+    fn curve(&self, front: FrontId, passage: &Passage, own: f64) -> Option<Arc<CapillaryCurve>> {
+        Some(CapillaryCurve::new(passage, own, self.gates[front.0].width)?.between(&self.terms))
     }
 
     /// Elements, gates, and phases of full elements.

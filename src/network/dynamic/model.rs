@@ -26,6 +26,11 @@ impl DynamicModel {
         self.dynamic.invading_area() / self.dynamic.pore_area
     }
 
+    /// Saturation of the wetting phase.
+    pub(crate) fn wetting_saturation(&self) -> f64 {
+        self.invading.saturation(self.saturation())
+    }
+
     /// Capillary number μ U/σ: viscosity of the invading phase, U the inflow over the length of the inlet side.
     pub(crate) fn capillary_number(&self) -> f64 {
         let (_, inflow) = self.dynamic.drive_now();
@@ -38,10 +43,6 @@ impl DynamicModel {
     /// The present state.
     pub(crate) fn occupation(&self) -> Occupation<'_> {
         let elements = self.dynamic.displacement().elements();
-        let name = match self.invading {
-            FluidPhase::NonWetting => "drainage",
-            FluidPhase::Wetting => "imbibition",
-        };
         let towards_wetting =
             |invasion: Invasion| Invasion { applied: self.invading.towards_wetting(invasion.applied), ..invasion };
         Occupation {
@@ -54,7 +55,8 @@ impl DynamicModel {
             menisci: self.dynamic.menisci(),
             films: None,
             note: format!(
-                "{name} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
+                "{} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
+                self.invading.process(),
                 self.dynamic.time(),
                 self.injected(),
                 self.capillary_number()

@@ -3,8 +3,6 @@
 //! A meniscus past its event in a pore at the outlet advances along the walls until it touches the outlet side, where the invading phase
 //! leaves. Until then it has the curvature at which it touches.
 
-use std::sync::Arc;
-
 use super::capillary_curve::{CapillaryCurve, Reach};
 use super::{Breakthrough, Dynamic, Meniscus};
 use crate::geometry::curve::Curve;
@@ -43,7 +41,7 @@ impl Dynamic {
         // The swept area never exceeds that of the element.
         let most = self.displacement.elements()[element].area.max(event);
         let curve = CapillaryCurve::level([event, event + most], curvature.min(own), self.gates[front.0].width);
-        Some(Reach { area, curve: Arc::new(curve.between(|curvature| self.terms.with_depth(curvature))) })
+        Some(Reach { area, curve: curve.between(&self.terms) })
     }
 
     /// An opening of the outlet as a line with the pore on its right.

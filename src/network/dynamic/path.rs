@@ -82,7 +82,7 @@ impl Dynamic {
             }
             let at_equilibrium = |law: usize, dt: f64| {
                 let equilibrium = self.equilibrium_area(known, law, path.drop(known.laws[law].link, dt), dt);
-                self.filling(known, &path, law, [equilibrium, about[law], dt])
+                self.filling(known, &path, law, equilibrium, about[law], dt)
             };
             dt = self.first_along(graph, known, range, at_equilibrium);
             let mut next = Pressures {
@@ -107,7 +107,7 @@ impl Dynamic {
     }
 
     /// The same for a filling element that is not full: with one relaxation time, the inflow during a time d is a d/(1 + b d).
-    fn filling(&self, known: &Known, path: &Path, law: usize, [equilibrium, about, dt]: [f64; 3]) -> f64 {
+    fn filling(&self, known: &Known, path: &Path, law: usize, equilibrium: f64, about: f64, dt: f64) -> f64 {
         let law = &known.laws[law];
         let Some(full) = law.full.filter(|&full| !law.passes || about < full) else { return equilibrium };
         let (passed, rate) = (path.passed(law.link, path.dt), path.rate(law.link));

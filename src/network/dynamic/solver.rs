@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::measures;
 use super::model::DynamicModel;
 use super::{Breakthrough, Drive, Dynamic, StepEnd};
+use crate::case::network::Stop;
 use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::network::cycles::FluidPhase;
@@ -18,21 +19,10 @@ use crate::solver::{
     Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
 };
 
-/// Conditions that end a dynamic displacement before its last record.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct End {
-    /// When the invading phase reaches the outlet.
-    pub at_breakthrough: bool,
-    /// At this saturation of the invading phase.
-    pub at_saturation: Option<f64>,
-    /// When this number of pore volumes has been injected.
-    pub at_injected: Option<f64>,
-}
-
 /// A network with a dynamic displacement.
 pub(crate) struct DynamicSolver {
     model: DynamicModel,
-    end: End,
+    stop: Stop,
     is_closed: bool,
     steps_before: u64,
     /// Wall times of extraction and displacement in s.
@@ -41,11 +31,11 @@ pub(crate) struct DynamicSolver {
 
 impl DynamicSolver {
     /// A displacement in its initial state.
-    pub(crate) fn new(quasi_static: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
+    pub(crate) fn new(quasi_static: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, stop: Stop) -> Self {
         let NetworkSolver { model: quasi_static, seconds, .. } = quasi_static;
         Self {
             model: DynamicModel { quasi_static, dynamic, invading },
-            end,
+            stop,
             is_closed: false,
             steps_before: 0,
             seconds,
@@ -97,11 +87,11 @@ impl Solver for DynamicSolver {
     }
 
     fn is_done(&self) -> bool {
-        let has_broken_through = self.end.at_breakthrough && self.model.dynamic.breakthrough().is_some();
+        let Self { model, stop, .. } = self;
         self.is_closed
-            || has_broken_through
-            || self.end.at_saturation.is_some_and(|end| self.model.saturation() >= end)
-            || self.end.at_injected.is_some_and(|end| self.model.injected() >= end)
+            || (stop.breakthrough && model.dynamic.breakthrough().is_some())
+            || stop.saturation.is_some_and(|wetting| model.saturation() >= model.invading.saturation(wetting))
+            || stop.injected.is_some_and(|end| model.injected() >= end)
     }
 
     fn steps(&self) -> u64 {
@@ -111,7 +101,7 @@ impl Solver for DynamicSolver {
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let (clock, before) = (Instant::now(), self.model.dynamic.time());
         // Not past the volume to be injected.
-        let left = self.end.at_injected.map_or(f64::INFINITY, |end| end - self.model.injected());
+        let left = self.stop.injected.map_or(f64::INFINITY, |end| end - self.model.injected());
         let until = match self.model.dynamic.terms().drive {
             Drive::Rate(rate) if left.is_finite() => until.min(before + left * self.model.dynamic.pore_area / rate),
             _ => until,
@@ -144,8 +134,6 @@ impl Solver for DynamicSolver {
 
     fn sample(&self) -> Vec<Sample> {
         let sample = |name, value| Sample { name, value };
-        let saturation = self.model.saturation();
-        let wetting = if self.model.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
         let (pressure, inflow) = self.model.dynamic.drive_now();
         let fingers = self.model.dynamic.fingers(&self.model.quasi_static.config);
         let depth = self.model.quasi_static.config.network.depth;
@@ -157,7 +145,7 @@ impl Solver for DynamicSolver {
             // Area that passed the inlet over that of the pores
             sample("injected_pore_volumes", self.model.injected()),
             // Wetting saturation
-            sample("saturation", wetting),
+            sample("saturation", self.model.wetting_saturation()),
             // Pressure at the inlet minus that at the outlet
             sample("pressure_difference_Pa", pressure),
             match depth {

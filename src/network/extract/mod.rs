@@ -59,8 +59,7 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
     if walls.walls.is_empty() {
         return Err(ExtractError::NoWalls { is_solid: geometry.is_solid(geometry.bounds().center()) });
     }
-    let perimeter =
-        Perimeter::new(&walls).map_err(|broken| ExtractError::Broken { at: broken.iter().map(|b| b.at).collect() })?;
+    let perimeter = Perimeter::new(&walls).map_err(|at| ExtractError::Broken { at })?;
     certified(&walls, &perimeter, 1.0)
 }
 

@@ -28,13 +28,6 @@ pub(super) struct SidePath {
     pub(crate) shift: Shift,
 }
 
-/// A wall end that does not lie on a side, or a missing start of the next wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Broken {
-    /// Where, in m.
-    pub(crate) at: Vec2,
-}
-
 /// All paths along the sides.
 pub(super) struct Perimeter {
     paths: Vec<Option<SidePath>>,
@@ -55,7 +48,10 @@ struct Cut {
 
 impl Perimeter {
     /// The paths from all walls that end at sides.
-    pub(crate) fn new(walls: &Walls) -> Result<Self, Vec<Broken>> {
+    ///
+    /// # Errors
+    /// The wall ends in m that do not lie on a side, or where the next wall does not start.
+    pub(crate) fn new(walls: &Walls) -> Result<Self, Vec<Vec2>> {
         let mut all = Self { paths: vec![None; walls.walls.len()], uncut: Vec::new() };
         let mut broken = Vec::new();
         let mut seen = vec![[false; 2]; walls.walls.len()];
@@ -67,7 +63,7 @@ impl Perimeter {
             for (k, cut) in cuts.iter().enumerate().filter(|(_, cut)| !cut.is_start) {
                 let next = cuts[(k + 1) % cuts.len()];
                 if !next.is_start {
-                    broken.push(Broken { at: walls.walls[cut.wall].curve.point(1.0) });
+                    broken.push(walls.walls[cut.wall].curve.point(1.0));
                     continue;
                 }
                 let until = if k + 1 < cuts.len() { next.position } else { next.position + run.length };
@@ -84,10 +80,10 @@ impl Perimeter {
         }
         for (wall, seen) in walls.walls.iter().zip(&seen).filter(|(wall, _)| !wall.curve.is_closed()) {
             if wall.before.is_none() && !seen[0] {
-                broken.push(Broken { at: wall.curve.point(0.0) });
+                broken.push(wall.curve.point(0.0));
             }
             if wall.next.is_none() && !seen[1] {
-                broken.push(Broken { at: wall.curve.point(1.0) });
+                broken.push(wall.curve.point(1.0));
             }
         }
         if broken.is_empty() { Ok(all) } else { Err(broken) }

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::comparison::Side;
 use super::pair::{CompareError, Task};
 use super::states::States;
 use super::track::{Grid, Record, Track};
@@ -29,7 +30,8 @@ pub(crate) const RUN: &str = "direct";
 /// Runs the direct simulation of a task to its end, or resumes it.
 pub(crate) fn track(
     task: &Task<'_>,
-    (state, grid): (&NetworkState, &Grid),
+    state: &NetworkState,
+    grid: &Grid,
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Track, CompareError> {
@@ -53,8 +55,17 @@ pub(crate) fn track(
         Status::Failed => return Err(CompareError::Failed(report.error.unwrap_or_default())),
         Status::Done | Status::ExpectationFailed => {}
     }
-    let mut track = Track::of(recorder.states.records(), &report, state.elements.len(), grid);
-    track.breakthrough = task.pair.is_in_time().then(|| breakthrough(&report, state.invading)).flatten();
+    let breakthrough = task.pair.is_in_time().then(|| breakthrough(&report, state.invading)).flatten();
+    let filled = vec![None; state.elements.len()];
+    let mut track = Track { filled, breakthrough, totals: totals(report), ..Track::default() };
+    for record in recorder.states.records {
+        // Elements are filled that the invading phase holds in more than half of their cells.
+        let mut shares = vec![[0_usize; 2]; state.elements.len()];
+        for (&(_, element), &invaded) in grid.cells.iter().zip(&record.invaded) {
+            shares[element][usize::from(invaded)] += 1;
+        }
+        track.add(record, |element| shares[element][1] > shares[element][0]);
+    }
     Ok(track)
 }
 
@@ -62,7 +73,7 @@ pub(crate) fn track(
 fn breakthrough(report: &Report, invading: FluidPhase) -> Option<[f64; 2]> {
     let value = |name: &str| report.measures.get(name).and_then(|reading| reading.value);
     let (time, saturation) = (value("breakthrough-time-s")?, value("saturation-at-breakthrough")?);
-    Some([time, if invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation }])
+    Some([time, invading.saturation(saturation)])
 }
 
 /// The case with `records` rows of its series: each is a compared state.
@@ -88,45 +99,24 @@ impl Watcher for Recorder<'_> {
     }
 
     fn recorded(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
-        self.states.add(solver.time(), as_record(solver, self.grid, (self.invading, self.drive)))
+        self.states.add(as_record(solver, self.grid, self.invading, self.drive))
     }
 }
 
-impl Track {
-    fn of(records: Vec<Record>, report: &Report, elements: usize, grid: &Grid) -> Self {
-        let permeability = report.measures.get("permeability-m2").and_then(|reading| reading.value);
-        let mut track = Self {
-            records: Vec::new(),
-            filled: vec![None; elements],
-            wall_time_s: report.wall_time_s.total,
-            processor_time_s: report.cpu_s,
-            unknowns: report.solver.unknowns,
-            steps: report.steps,
-            permeability,
-            breakthrough: None,
-            warnings: report.warnings.clone(),
-        };
-        records.into_iter().for_each(|record| track.add(record, grid));
-        track
-    }
-
-    /// Adds a record, and notes which elements are invaded in more than half of their cells.
-    fn add(&mut self, record: Record, grid: &Grid) {
-        let mut shares = vec![[0_usize; 2]; self.filled.len()];
-        for (&(_, element), &invaded) in grid.cells.iter().zip(&record.invaded) {
-            shares[element][usize::from(invaded)] += 1;
-        }
-        let number = self.records.len();
-        for (filled, [without, with]) in self.filled.iter_mut().zip(shares) {
-            if with > without {
-                filled.get_or_insert(number);
-            }
-        }
-        self.records.push(record);
+/// The cost of the simulation, its permeability and its warnings.
+fn totals(report: Report) -> Side {
+    Side {
+        wall_time_s: report.wall_time_s.total,
+        processor_time_s: report.cpu_s,
+        unknowns: report.solver.unknowns,
+        steps: report.steps,
+        permeability_m2: report.measures.get("permeability-m2").and_then(|reading| reading.value),
+        warnings: report.warnings,
+        ..Side::default()
     }
 }
 
-fn as_record(solver: &dyn Solver, grid: &Grid, (invading, drive): (FluidPhase, &str)) -> Record {
+fn as_record(solver: &dyn Solver, grid: &Grid, invading: FluidPhase, drive: &str) -> Record {
     let sample = solver.sample();
     let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
     // If the pressure rises in steps, it is the prescribed one, of the invading phase minus the other.

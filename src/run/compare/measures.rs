@@ -11,35 +11,28 @@ pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
     let largest = |side: &Side| side.breakthrough_pressure_pa;
     let saturation = |side: &Side| side.saturation_at_breakthrough;
     vec![
-        measure(
-            "mean-overlap",
-            found.mean_overlap,
-            "",
-            "area that both have invaded over the area that either has, at the nearest saturation; mean over the records",
-        ),
-        measure(
-            "rank-correlation",
-            found.rank_correlation,
-            "",
-            "Spearman's, of the order in which elements were filled that both filled",
-        ),
-        measure("elements-in-both", Some(found.elements_in_both as f64), "", "elements that both filled"),
-        measure("network-breakthrough-pressure-Pa", largest(network), "Pa", threshold),
-        measure("direct-breakthrough-pressure-Pa", largest(direct), "Pa", threshold),
-        measure("network-saturation-at-breakthrough", saturation(network), "", "of the wetting phase"),
-        measure("direct-saturation-at-breakthrough", saturation(direct), "", "of the wetting phase"),
-        measure("network-breakthrough-time-s", network.breakthrough_time_s, "s", reached),
-        measure("direct-breakthrough-time-s", direct.breakthrough_time_s, "s", reached),
-        measure("network-permeability-m2", network.permeability_m2, "m2", "along x, of the network"),
-        measure("direct-permeability-m2", direct.permeability_m2, "m2", "along x, where the case measures it"),
-        measure("network-pores", Some(network.unknowns as f64), "", "pores of the network"),
-        measure("direct-particles", Some(direct.unknowns as f64), "", "particles of the direct simulation"),
-        measure("network-cpu-s", network.processor_time_s, "s", "processor time of the network"),
-        measure("direct-cpu-s", direct.processor_time_s, "s", "processor time of the direct simulation"),
+        measure("mean-overlap", found.mean_overlap, "")
+            .by("area that both have invaded over the area that either has, at the nearest saturation; mean over the \
+                 records"),
+        measure("rank-correlation", found.rank_correlation, "")
+            .by("Spearman's, of the order in which elements were filled that both filled"),
+        measure("elements-in-both", Some(found.elements_in_both as f64), "").by("elements that both filled"),
+        measure("network-breakthrough-pressure-Pa", largest(network), "Pa").by(threshold),
+        measure("direct-breakthrough-pressure-Pa", largest(direct), "Pa").by(threshold),
+        measure("network-saturation-at-breakthrough", saturation(network), "").by("of the wetting phase"),
+        measure("direct-saturation-at-breakthrough", saturation(direct), "").by("of the wetting phase"),
+        measure("network-breakthrough-time-s", network.breakthrough_time_s, "s").by(reached),
+        measure("direct-breakthrough-time-s", direct.breakthrough_time_s, "s").by(reached),
+        measure("network-permeability-m2", network.permeability_m2, "m2").by("along x, of the network"),
+        measure("direct-permeability-m2", direct.permeability_m2, "m2").by("along x, where the case measures it"),
+        measure("network-pores", Some(network.unknowns as f64), "").by("pores of the network"),
+        measure("direct-particles", Some(direct.unknowns as f64), "").by("particles of the direct simulation"),
+        measure("network-cpu-s", network.processor_time_s, "s").by("processor time of the network"),
+        measure("direct-cpu-s", direct.processor_time_s, "s").by("processor time of the direct simulation"),
     ]
 }
 
 /// A measure without an uncertainty; NaN if it was not measured.
-fn measure(name: &str, value: Option<f64>, unit: &str, method: &str) -> Measure {
-    solver::measure(name, value.unwrap_or(f64::NAN), unit, method)
+fn measure(name: &str, value: Option<f64>, unit: &str) -> Measure {
+    solver::measure(name, value.unwrap_or(f64::NAN), unit)
 }

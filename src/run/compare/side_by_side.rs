@@ -39,17 +39,17 @@ pub(crate) fn compare(
     let grid = Grid::new(bounds, &elements);
     let by_network = match &pair.network.model {
         Model::Network(wanted) if pair.is_in_time() => {
-            network::track_in_time((pair.network, wanted), &grid, (pair.direct.end, pair.records))?
+            network::track_in_time(pair.network, wanted, &grid, pair.direct.end, pair.records)?
         }
         _ => network::track(&mut solver, &grid)?,
     };
-    let by_direct = direct::track(task, (&state, &grid), interrupt, watcher)?;
+    let by_direct = direct::track(task, &state, &grid, interrupt, watcher)?;
     let outlet = network::outlet_elements(&state);
     let outline = solver.outline();
     Ok(Comparison {
         titles: [pair.network.title.clone(), pair.direct.title.clone()],
-        network: side(&by_network, &outlet, (pair.is_in_time(), state.invading)),
-        direct: side(&by_direct, &outlet, (pair.is_in_time(), state.invading)),
+        network: side(&by_network, &outlet, pair.is_in_time(), state.invading),
+        direct: side(&by_direct, &outlet, pair.is_in_time(), state.invading),
         is_in_time: pair.is_in_time(),
         ..compared(&by_network, &by_direct, &Maps { grid: &grid, outline: &outline, invading: state.invading })
     })
@@ -91,19 +91,11 @@ fn without_time(wanted: &PoreNetwork) -> PoreNetwork {
     wanted
 }
 
-fn side(track: &Track, outlet: &[usize], (is_in_time, invading): (bool, FluidPhase)) -> Side {
+fn side(track: &Track, outlet: &[usize], is_in_time: bool, invading: FluidPhase) -> Side {
     let pressures: Vec<Option<f64>> =
         track.records.iter().map(|it| Some(it.pressure).filter(|p| p.is_finite())).collect();
-    let common = Side {
-        saturation: track.records.iter().map(|record| record.saturation).collect(),
-        permeability_m2: track.permeability,
-        wall_time_s: track.wall_time_s,
-        processor_time_s: track.processor_time_s,
-        unknowns: track.unknowns,
-        steps: track.steps,
-        warnings: track.warnings.clone(),
-        ..Side::default()
-    };
+    let common =
+        Side { saturation: track.records.iter().map(|record| record.saturation).collect(), ..track.totals.clone() };
     if is_in_time {
         return Side {
             time_s: track.records.iter().map(|record| record.time).collect(),

@@ -28,7 +28,8 @@ struct Line {
 #[derive(Debug)]
 pub(crate) struct States {
     journal: Journal,
-    records: Vec<(f64, Record)>,
+    /// All of them in order.
+    pub(crate) records: Vec<Record>,
 }
 
 impl States {
@@ -53,32 +54,27 @@ impl States {
                 break;
             }
             kept += line.len();
-            records.push((line_of_file.time_s, line_of_file.record(grid, &path)?));
+            records.push(line_of_file.record(grid, &path)?);
         }
         let mark = Mark::after(&bytes[..kept]);
         Ok(Self { journal: Journal::resume(path, mark)?, records })
     }
 
-    /// Adds the state at a time in s; a state of the same time exists already.
-    pub(crate) fn add(&mut self, time: f64, record: Record) -> Result<(), FileError> {
-        if self.records.last().is_some_and(|&(last, _)| time <= last) {
+    /// Adds a state, unless one of the same time exists already.
+    pub(crate) fn add(&mut self, record: Record) -> Result<(), FileError> {
+        if self.records.last().is_some_and(|last| record.time <= last.time) {
             return Ok(());
         }
-        let line = Line::of(time, &record);
+        let line = Line::of(&record);
         let text = serde_json::to_string(&line).map_err(|error| content(self.journal.path(), &error.to_string()))?;
         self.journal.append((text + "\n").as_bytes())?;
-        self.records.push((time, record));
+        self.records.push(record);
         Ok(())
-    }
-
-    /// All of them in order.
-    pub(crate) fn records(self) -> Vec<Record> {
-        self.records.into_iter().map(|(time, record)| Record { time, ..record }).collect()
     }
 }
 
 impl Line {
-    fn of(time_s: f64, record: &Record) -> Self {
+    fn of(record: &Record) -> Self {
         let mut runs = Vec::new();
         let mut present = false;
         let mut length = 0;
@@ -91,7 +87,8 @@ impl Line {
         }
         runs.push(length);
         let finite = |value: f64| Some(value).filter(|value| value.is_finite());
-        Self { time_s, saturation: finite(record.saturation), pressure_pa: finite(record.pressure), runs }
+        let [saturation, pressure_pa] = [record.saturation, record.pressure].map(finite);
+        Self { time_s: record.time, saturation, pressure_pa, runs }
     }
 
     fn record(&self, grid: &Grid, path: &Path) -> Result<Record, FileError> {
@@ -121,21 +118,22 @@ mod tests {
         Grid { bounds, counts: [cells, 1], cells: (0..cells).map(|cell| (cell, 0)).collect() }
     }
 
-    fn record(saturation: f64, invaded: [bool; 4]) -> Record {
-        Record { time: f64::NAN, saturation, pressure: f64::NAN, invaded: invaded.to_vec() }
+    fn record(time: f64, saturation: f64, invaded: [bool; 4]) -> Record {
+        Record { time, saturation, pressure: f64::NAN, invaded: invaded.to_vec() }
     }
 
     #[test]
     fn states_are_read_back_up_to_a_time_and_go_on_from_there() {
         let folder = tempfile::tempdir().unwrap();
-        let all = [[false, false, true, true], [true, false, true, false], [true; 4]].map(|it| record(0.25, it));
+        let all = [(0.0, [false, false, true, true]), (1.0, [true, false, true, false]), (2.0, [true; 4])];
+        let all = all.map(|(time, invaded)| record(time, 0.25, invaded));
         let mut states = States::new(folder.path());
-        for (k, state) in all.iter().enumerate() {
-            states.add(k as f64, state.clone()).unwrap();
+        for state in &all {
+            states.add(state.clone()).unwrap();
             // A second record of one time is ignored.
-            states.add(k as f64, record(0.5, [false; 4])).unwrap();
+            states.add(record(state.time, 0.5, [false; 4])).unwrap();
         }
-        let content = |states: States| states.records().into_iter().map(|it| (it.saturation, it.invaded)).collect();
+        let content = |states: States| states.records.into_iter().map(|it| (it.saturation, it.invaded)).collect();
         let expected: Vec<_> = all.iter().map(|it| (it.saturation, it.invaded.clone())).collect();
         let read: Vec<(f64, Vec<bool>)> = content(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
         assert_eq!(read, expected);
@@ -143,7 +141,7 @@ mod tests {
         let path = folder.path().join(STATES);
         std::fs::write(&path, std::fs::read_to_string(&path).unwrap() + "{\"time_s\": 3").unwrap();
         let mut states = States::up_to(1.0, folder.path(), &grid(4)).unwrap();
-        states.add(2.0, all[2].clone()).unwrap();
+        states.add(all[2].clone()).unwrap();
         drop(states);
         let read: Vec<(f64, Vec<bool>)> = content(States::up_to(9.0, folder.path(), &grid(4)).unwrap());
         assert_eq!(read, expected);

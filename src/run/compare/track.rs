@@ -1,5 +1,6 @@
 //! A displacement, record by record, on the cells on which both are compared.
 
+use super::comparison::Side;
 use crate::geometry::elements::Elements;
 use crate::math::{Bounds, Vec2};
 
@@ -20,19 +21,24 @@ pub(crate) struct Record {
 }
 
 /// The displacement of one of the two.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Track {
     pub(crate) records: Vec<Record>,
     /// For each element, the record at which the invading phase first filled more than half of it.
     pub(crate) filled: Vec<Option<usize>>,
-    pub(crate) wall_time_s: f64,
-    pub(crate) processor_time_s: Option<f64>,
-    pub(crate) unknowns: usize,
-    pub(crate) steps: u64,
-    pub(crate) permeability: Option<f64>,
     /// Of a displacement in time: time of breakthrough in s, and the wetting saturation then.
     pub(crate) breakthrough: Option<[f64; 2]>,
-    pub(crate) warnings: Vec<String>,
+    /// Its cost, permeability and warnings.
+    pub(crate) totals: Side,
+}
+
+impl Track {
+    /// Adds a record, and notes which elements the invading phase has filled then.
+    pub(crate) fn add(&mut self, record: Record, is_filled: impl Fn(usize) -> bool) {
+        let filled = self.filled.iter_mut().enumerate().filter(|(element, _)| is_filled(*element));
+        filled.for_each(|(_, filled)| _ = filled.get_or_insert(self.records.len()));
+        self.records.push(record);
+    }
 }
 
 /// The cells on which both are compared.
@@ -51,6 +57,11 @@ impl Grid {
         grid.cells =
             (0..counts[0] * counts[1]).filter_map(|cell| Some((cell, elements.at(grid.middle(cell))?))).collect();
         grid
+    }
+
+    /// For each cell, whether its element is filled.
+    pub(crate) fn in_filled(&self, is_filled: impl Fn(usize) -> bool) -> Vec<bool> {
+        self.cells.iter().map(|&(_, element)| is_filled(element)).collect()
     }
 
     pub(crate) fn middle(&self, cell: usize) -> Vec2 {

@@ -1,32 +1,31 @@
 //! Measures of every run: contact angle, pressures, saturation, lengths, area drift and density errors.
 
 use super::open;
-use super::subject::{Subject, measure};
+use super::subject::Subject;
 use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::math::Vec2;
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
 use crate::sph::warnings::most_small_pieces;
 
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
-    let fluids = s.flow.state.particles.fluids;
-    let [rms, largest] = density_error(&s.flow.fields.bulk.volume[..fluids], s.flow.config.method.volume);
+    let (config, particles, fluids) = (&s.flow.config, &s.flow.state.particles, s.flow.state.particles.fluids);
+    let [rms, largest] = density_error(&s.flow.fields.bulk.volume[..fluids], config.method.volume);
     let mut found = vec![
-        measure("density-error", rms, "", None, "root mean square of V0/V - 1 over fluid particles at the end"),
-        measure("largest-density-error", largest, "", None, "largest |V0/V - 1| over fluid particles at the end"),
+        measure("density-error", rms, "").by("root mean square of V0/V - 1 over fluid particles at the end"),
+        measure("largest-density-error", largest, "").by("largest |V0/V - 1| over fluid particles at the end"),
     ];
-    let nearest =
-        (0..fluids).map(|a| (s.flow.config.wall)(s.flow.state.particles.position[a]).0).fold(f64::INFINITY, f64::min);
+    let nearest = (0..fluids).map(|a| (config.wall)(particles.position[a]).0).fold(f64::INFINITY, f64::min);
     if nearest.is_finite() {
         let method = "signed distance of the fluid particle nearest to a wall; negative inside the wall";
-        found.push(measure("smallest-wall-distance-m", nearest, "m", None, method));
+        found.push(measure("smallest-wall-distance-m", nearest, "m").by(method));
     }
     let distance = smallest_distance(s.flow);
     if distance.is_finite() {
         let method = "smallest distance of two fluid particles over dx at the end; below 0.5 for paired particles";
-        found.push(measure("smallest-particle-distance-ratio", distance, "", None, method));
+        found.push(measure("smallest-particle-distance-ratio", distance, "").by(method));
     }
-    if s.flow.config.method.tension > 0.0 {
+    if config.method.tension > 0.0 {
         found.extend(two_phases(s));
     }
     found
@@ -55,67 +54,43 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     let drift = kept.drift_since(&s.start);
     let drift = drift.iter().map(|d| d.abs()).filter(|d| d.is_finite()).fold(0.0, f64::max);
     let (pressure, blobs) = (&s.observed.capillary_pressure, s.observed.wetting_blobs.len() as f64);
-    let mut found = vec![
-        measure("saturation", s.observed.areas.saturation(), "", None, "area of the wetting phase over that of both"),
-        measure(
-            "area-drift",
-            drift,
-            "",
-            None,
-            "larger relative change of the area of a phase since time zero, without the flow through open sides",
-        ),
-        measure(
-            "capillary-pressure-Pa",
-            pressure.value,
-            "Pa",
-            Some(pressure.uncertainty_at(
-                flattest_angle(s),
-                s.flow.config.method.tension,
-                s.flow.config.method.kernel.h,
-            )),
-            "mean pressure of non-wetting minus wetting particles farther than 3h from the interface, referred to the mean height of the interface",
-        ),
-        measure("interface-length-m", s.observed.interface_length(), "m", None, "length of the c = 0.5 contour"),
-        measure(
-            "wetted-length-m",
-            s.observed.wetted_length,
-            "m",
-            None,
-            "length of wall where the smoothed color is above 0.5",
-        ),
-        measure("wetting-blobs", blobs, "", None, "connected parts, links up to 1.6 dx"),
-    ];
-    found.push(measure(
-        "below-resolution-share",
-        s.observed.thin(s.flow).share,
-        "",
-        None,
-        "particles where their phase is thinner than about three particles, over the particles of the smaller phase",
-    ));
-    found.push(measure(
-        "small-pieces",
-        s.observed.small_pieces as f64,
-        "",
-        None,
-        "connected parts of either phase with fewer than 20 particles",
-    ));
+    let method = &s.flow.config.method;
     let most = most_small_pieces(s.series).map_or(f64::NAN, |(most, _)| most);
-    found.push(measure("most-small-pieces", most, "", None, "largest number of small pieces at any record"));
-    if s.flow.config.method.wetting.is_some() {
+    let mut found = vec![
+        measure("saturation", s.observed.areas.saturation(), "").by("area of the wetting phase over that of both"),
+        measure("area-drift", drift, "")
+            .by("larger relative change of the area of a phase since time zero, without the flow through open sides"),
+        measure("capillary-pressure-Pa", pressure.value, "Pa")
+            .by("mean pressure of non-wetting minus wetting particles farther than 3h from the interface, referred \
+                 to the mean height of the interface")
+            .with_uncertainty(pressure.uncertainty_at(flattest_angle(s), method.tension, method.kernel.h)),
+        measure("interface-length-m", s.observed.interface_length(), "m").by("length of the c = 0.5 contour"),
+        measure("wetted-length-m", s.observed.wetted_length, "m")
+            .by("length of wall where the smoothed color is above 0.5"),
+        measure("wetting-blobs", blobs, "").by("connected parts, links up to 1.6 dx"),
+        measure("below-resolution-share", s.observed.thin(s.flow).share, "").by(
+            "particles where their phase is thinner than about three particles, over the particles of the smaller \
+                 phase",
+        ),
+        measure("small-pieces", s.observed.small_pieces as f64, "")
+            .by("connected parts of either phase with fewer than 20 particles"),
+        measure("most-small-pieces", most, "").by("largest number of small pieces at any record"),
+    ];
+    if method.wetting.is_some() {
         let angle = s.observed.angle();
-        let method = how_the_angle_was_measured(s);
-        found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
-        let models = s
-            .observed
-            .contact_lines
-            .iter()
-            .filter_map(|line| s.flow.config.wall_properties.model(&s.flow.config.method, line.position));
+        let lines = s.observed.contact_lines.iter();
+        let models = lines.filter_map(|line| s.flow.config.wall_properties.model(method, line.position));
         let angles: Vec<f64> = models.map(|model| model.static_angle().to_degrees()).collect();
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-        let method = "mean over the contact lines of the static angle of the wetting model at their positions";
-        found.push(measure("requested-angle-deg", mean, "deg", None, method));
-        let method = "slip length of walls near contact lines; with a static angle the speed of a line depends on it";
-        found.push(measure("line-slip-length-m", s.flow.config.method.no_slip.line_slip_length, "m", None, method));
+        found.extend([
+            measure("contact-angle-deg", angle.mean_deg, "deg")
+                .by(how_the_angle_was_measured(s))
+                .with_uncertainty(angle.uncertainty_deg),
+            measure("requested-angle-deg", mean, "deg")
+                .by("mean over the contact lines of the static angle of the wetting model at their positions"),
+            measure("line-slip-length-m", method.no_slip.line_slip_length, "m")
+                .by("slip length of walls near contact lines; with a static angle the speed of a line depends on it"),
+        ]);
     }
     found
 }

@@ -12,7 +12,7 @@ pub(crate) mod relative;
 pub mod stream;
 mod subject;
 
-pub use subject::{Columns, DiscOf, Group, Subject, measure};
+pub use subject::{Columns, DiscOf, Group, Subject};
 
 use crate::solver::{Measure, Sample};
 use crate::sph::flow::Flow;

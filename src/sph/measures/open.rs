@@ -1,7 +1,7 @@
 //! Measures of runs with open sides: mass balance, flow rates, breakthrough and burst pressure.
 
-use super::subject::{Columns, Subject, measure};
-use crate::solver::Measure;
+use super::subject::{Columns, Subject};
+use crate::solver::{Measure, measure};
 use crate::sph::flow::Flow;
 use crate::sph::open::{BoundaryFluxes, GivenFlow, OpenSide};
 use crate::sph::particles::Phase;
@@ -128,21 +128,12 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let area = |of: &crate::analysis::phases::PhaseAreas| of.wetting + of.non_wetting;
     let drift = (area(&s.observed.areas) - area(&s.start) - net) / area(&s.start);
     let mut found = vec![
-        measure(
-            "balance-error",
-            error,
-            "",
-            None,
-            "particles at time zero plus those that came in minus those that left and those inside, larger of both phases, over all at \
-             time zero",
-        ),
-        measure(
-            "open-area-drift",
-            drift,
-            "",
-            None,
-            "change of the area of both phases minus the net inflow through the sides, over the area at time zero",
-        ),
+        measure("balance-error", error, "")
+            .by("particles at time zero plus those that came in minus those that left and those inside, larger of \
+                 both phases, over all at time zero"),
+        measure("open-area-drift", drift, "")
+            .by("change of the area of both phases minus the net inflow through the sides, over the area at time \
+                 zero"),
     ];
     if flow.state.time > 0.0 {
         found.extend(flow_rates(flow));
@@ -183,7 +174,7 @@ fn breakthrough(s: &Subject) -> [Measure; 2] {
         let ends = interval.map(|rows| rows.map(|row| values[row]));
         let middle = ends.map_or(f64::NAN, |[before, after]| 0.5 * (before + after));
         let uncertainty = ends.map(|[before, after]| 0.5 * (after - before).abs() / 3.0_f64.sqrt());
-        measure(name, middle, unit, uncertainty, method)
+        measure(name, middle, unit).by(method).with_uncertainty(uncertainty)
     };
     [of("breakthrough-time-s", &time, "s"), of("saturation-at-breakthrough", &saturation, "")]
 }
@@ -205,14 +196,14 @@ fn burst(s: &Subject) -> Option<Measure> {
         let ends = (1..through).filter(|&row| pressure[row + 1] > pressure[row]);
         Some([pressure[ends.rev().find(rests)?], pressure[through]])
     });
-    Some(measure(
-        "burst-pressure-Pa",
-        bracket.map_or(f64::NAN, |[low, high]| 0.5 * (low + high)),
-        "Pa",
-        bracket.map(|[low, high]| 0.5 * (high - low)),
-        "middle between the last pressure difference with menisci at rest and that at which the invading phase reached the opposite \
-         side, both within the uncertainty; needs one of each",
-    ))
+    Some(
+        measure("burst-pressure-Pa", bracket.map_or(f64::NAN, |[low, high]| 0.5 * (low + high)), "Pa")
+            .by(
+                "middle between the last pressure difference with menisci at rest and that at which the invading phase \
+             reached the opposite side, both within the uncertainty; needs one of each",
+            )
+            .with_uncertainty(bracket.map(|[low, high]| 0.5 * (high - low))),
+    )
 }
 
 /// Mean flow rates since time zero and those that were requested.
@@ -235,19 +226,19 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
         given_in += requested.map_or(0.0, |_| rate);
     }
     let method = "net inflow of area over the sides with inflow, divided by the time since time zero";
-    let mut found = vec![measure("inflow-m2-per-s", came_in, "m2/s", None, method)];
+    let mut found = vec![measure("inflow-m2-per-s", came_in, "m2/s").by(method)];
     if requested_in > 0.0 {
         let method = "sum of the inward flow rates given in the case";
-        found.push(measure("asked-inflow-m2-per-s", requested_in, "m2/s", None, method));
+        found.push(measure("asked-inflow-m2-per-s", requested_in, "m2/s").by(method));
         let method = "inflow through the sides with a given velocity or flow rate, over the requested one";
-        found.push(measure("inflow-ratio", given_in / requested_in, "", None, method));
+        found.push(measure("inflow-ratio", given_in / requested_in, "").by(method));
     }
     for (side, given) in flow.view().given_flows() {
         let drop = given.gradient * flow.config.domain.bounds.size()[side.axis()];
         let method = "largest relative error of the flow rate through the periodic side in a step, from the displacements of all particles";
-        found.push(measure("largest-flow-rate-error", given.largest_error, "", None, method));
+        found.push(measure("largest-flow-rate-error", given.largest_error, "").by(method));
         let method = "mean pressure gradient that drives the given flow at the end, times the period";
-        found.push(measure("driving-pressure-drop-Pa", drop, "Pa", None, method));
+        found.push(measure("driving-pressure-drop-Pa", drop, "Pa").by(method));
     }
     found
 }

@@ -1,8 +1,8 @@
 //! Permeability tensor of a periodic cell from creeping flow under a body force along each axis in turn: u_i = k_ij f_j/μ (Darcy's law).
 
-use super::subject::{Columns, Subject, measure};
+use super::subject::{Columns, Subject};
 use crate::math::Vec2;
-use crate::solver::{Measure, Series};
+use crate::solver::{Measure, Series, measure};
 use crate::sph::flow::Flow;
 use crate::sph::stages::Stages;
 
@@ -89,15 +89,15 @@ fn column_measures(column: &Column) -> Vec<Measure> {
     );
     if column.axis == 0 {
         vec![
-            measure("permeability-xx-m2", k.x, "m2", None, &of("x")),
-            measure("permeability-yx-m2", k.y, "m2", None, &of("y")),
-            measure("unsteady-share-x", share, "", None, &of_share),
+            measure("permeability-xx-m2", k.x, "m2").by(&of("x")),
+            measure("permeability-yx-m2", k.y, "m2").by(&of("y")),
+            measure("unsteady-share-x", share, "").by(&of_share),
         ]
     } else {
         vec![
-            measure("permeability-xy-m2", k.x, "m2", None, &of("x")),
-            measure("permeability-yy-m2", k.y, "m2", None, &of("y")),
-            measure("unsteady-share-y", share, "", None, &of_share),
+            measure("permeability-xy-m2", k.x, "m2").by(&of("x")),
+            measure("permeability-yy-m2", k.y, "m2").by(&of("y")),
+            measure("unsteady-share-y", share, "").by(&of_share),
         ]
     }
 }

@@ -2,8 +2,8 @@
 //! over that of the whole pore.
 
 use super::permeability::{Column, inertial, response, unsteady};
-use super::subject::{Subject, measure};
-use crate::solver::Measure;
+use super::subject::Subject;
+use crate::solver::{Measure, measure};
 
 /// The flows in the order of their stages.
 const FLOWS: [&str; 3] = ["of the whole pore", "of the wetting phase", "of the non-wetting phase"];
@@ -26,11 +26,11 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
         "largest rate of change of momentum between the last two records of a flow, over the force on its fluid";
     let of_saturation = "area of the wetting phase over that of both at time zero";
     vec![
-        measure("permeability-m2", k, "m2", None, &of_whole),
-        measure("relative-permeability-wetting", of_wetting / k, "", None, &relative("wetting")),
-        measure("relative-permeability-non-wetting", of_other / k, "", None, &relative("non-wetting")),
-        measure("saturation", s.start.saturation(), "", None, of_saturation),
-        measure("unsteady-share", share, "", None, of_share),
+        measure("permeability-m2", k, "m2").by(&of_whole),
+        measure("relative-permeability-wetting", of_wetting / k, "").by(&relative("wetting")),
+        measure("relative-permeability-non-wetting", of_other / k, "").by(&relative("non-wetting")),
+        measure("saturation", s.start.saturation(), "").by(of_saturation),
+        measure("unsteady-share", share, "").by(of_share),
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use crate::analysis::phases::PhaseAreas;
 use crate::math::{Bounds, Vec2};
-use crate::solver::{self, Measure, Series};
+use crate::solver::{Measure, Series};
 use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 use crate::sph::stages::Stages;
@@ -54,12 +54,15 @@ pub struct Group {
 
 impl Group {
     /// A group without columns of its own.
-    pub(crate) const fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
-        Self { columns: |_, _| Vec::new(), measures, warnings: |_| Vec::new() }
+    pub(crate) fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
+        Self::with_columns(|_, _| Vec::new(), measures)
     }
-}
 
-/// A measure: value and standard `uncertainty` in `unit`, and a sentence on the `method`.
-pub fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method: &str) -> Measure {
-    Measure { uncertainty, ..solver::measure(name, value, unit, method) }
+    /// A group with columns of its own.
+    pub(crate) fn with_columns(
+        columns: fn(&Flow, &Observation) -> Columns,
+        measures: fn(&Subject) -> Vec<Measure>,
+    ) -> Self {
+        Self { columns, measures, warnings: |_| Vec::new() }
+    }
 }
