@@ -134,7 +134,7 @@ mod tests {
         }
         assert_eq!(history.records.len(), 160);
         assert!((history.exponent(0.0, |r| Some(r.position)).unwrap() - 0.2).abs() < 1.0e-12);
-        assert_eq!(history.exponent(0.0, |r| r.last), None);
+        assert_eq!((history.exponent(0.0, |r| r.last), exponent([(1.0, 2.0)])), (None, None));
     }
 
     #[test]

@@ -93,11 +93,4 @@ mod tests {
         assert!((line.position - std::f64::consts::FRAC_PI_2 - 1.0).abs() < 1.0e-7, "{line:?}");
         assert!((line.slope - 1.0).abs() < 1.0e-8);
     }
-
-    #[test]
-    fn a_power_law_has_its_exponent() {
-        let law = (1..20).map(|i| (f64::from(i), 3.0 * f64::from(i).powf(1.0 / 7.0)));
-        assert!((exponent(law).unwrap() - 1.0 / 7.0).abs() < 1.0e-12);
-        assert_eq!(exponent([(1.0, 2.0)]), None);
-    }
 }

@@ -5,7 +5,7 @@ use super::cells::{Cells, Layout, Model};
 use super::droplet::{Droplet, particles};
 use super::equilibrium::Equilibrium;
 use super::film::Film;
-use super::grid_film::{Equation, GridFilm};
+use super::grid_film::GridFilm;
 use super::kernel::Kernel;
 use super::observed::Surroundings;
 use super::ode::{Integrator, Tolerance};
@@ -77,8 +77,7 @@ pub(crate) fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, Setu
         }
         FilmMethod::FiniteDifferences(FilmGrid { step_share }) => {
             let rule = StepRule { first: first_step(film, &scales), share: step_share, ..StepRule::ADAPTIVE };
-            let (equation, height) = grid(film, &scales, &droplets, wall, pull)?;
-            Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
+            Film::Grid(Box::new(grid(film, &scales, &droplets, wall, pull, rule)?))
         }
     };
     let resolution = match film.equation {
@@ -150,14 +149,15 @@ fn rest(film: &ThinFilm, scales: &Scales, droplets: &[Droplet]) -> Result<(f64, 
     Ok((wetting, alone.flatten()))
 }
 
-/// The equation on its grid, with the heights at time zero.
+/// The film on its grid at time zero.
 fn grid(
     film: &ThinFilm,
     scales: &Scales,
     droplets: &[Droplet],
     wall: [f64; 2],
     pull: Pull,
-) -> Result<(Equation, Vec<f64>), TooLarge> {
+    rule: StepRule,
+) -> Result<GridFilm, TooLarge> {
     let spacing = film.spacing / scales.length;
     let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
     let model = match (film.equation, film.symmetry) {
@@ -168,7 +168,7 @@ fn grid(
             let Pull { wetting, bond } = pull;
             let line = Line { from: -before * spacing, count, spacing, alpha, wetting, bond };
             let (ring, height) = Ring::new(line, droplets, film.weights)?;
-            return Ok((Equation::Ring(ring), height));
+            return Ok(GridFilm::new(ring, height, rule));
         }
         (FilmEquation::Geometric(Geometric { smoothing_length }), FilmSymmetry::Axis) => {
             Model::Geometric { alpha: smoothing_length / scales.length }
@@ -185,5 +185,5 @@ fn grid(
     let layout =
         Layout { from: wall[0] / scales.length, count, spacing, symmetry: film.symmetry, model, bond: scales.bond };
     let (cells, height) = Cells::new(layout, droplets, film.weights)?;
-    Ok((Equation::Cells(cells), height))
+    Ok(GridFilm::new(cells, height, rule))
 }
