@@ -54,24 +54,28 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
     if parameters.is_empty() {
         return vec![*curve];
     }
+    divided(curve, parameters, tolerance).into_iter().map(|[from, to]| curve.part(from, to)).collect()
+}
+
+/// The intervals between parameters of a curve that are longer than `tolerance` (m).
+pub(crate) fn divided(curve: &Curve, mut parameters: Vec<f64>, tolerance: f64) -> Vec<[f64; 2]> {
     parameters.sort_by(f64::total_cmp);
-    let shortest = tolerance / curve.length();
-    if curve.is_closed() {
+    if let Some(&first) = parameters.first().filter(|_| curve.is_closed()) {
         // Starting at the first intersection keeps an arc across the circle's start in one piece.
-        parameters.push(parameters[0] + 1.0);
+        parameters.push(first + 1.0);
     } else {
         parameters.insert(0, 0.0);
         parameters.push(1.0);
     }
-    let mut parts = Vec::new();
-    let mut from = parameters[0];
+    let shortest = tolerance / curve.length();
+    let (mut found, mut from) = (Vec::new(), parameters[0]);
     for &to in &parameters[1..] {
         if to - from > shortest {
-            parts.push(curve.part(from, to));
+            found.push([from, to]);
             from = to;
         }
     }
-    parts
+    found
 }
 
 /// Whether a part with this outward normal remains in a union with one other body.

@@ -11,8 +11,7 @@ use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::intersect::crossings;
 use crate::geometry::spec::{
-    Capsule, Channel, CurvedPolygon, Disc, GeometrySpec, HalfPlane, Polygon, Rectangle, ShapeSpec, SolidSide,
-    ThroatDiscs,
+    Capsule, Channel, CurvedPolygon, Disc, GeometrySpec, HalfPlane, Rectangle, ShapeSpec, SolidSide, ThroatDiscs,
 };
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2, perpendicular};
@@ -123,17 +122,7 @@ impl ShapeSpec {
                 ..throat.clone()
             }),
             Self::Rectangle(rectangle) => grown_rectangle(rectangle, by, shortest)?,
-            Self::Polygon(polygon) => {
-                let straight = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect();
-                let Polygon { outer, holes, position, rotation_deg } = polygon;
-                let polygon = CurvedPolygon {
-                    outer: straight(outer),
-                    holes: holes.iter().map(straight).collect(),
-                    position: *position,
-                    rotation_deg: *rotation_deg,
-                };
-                Self::CurvedPolygon(grown_polygon(&polygon, by, shortest)?)
-            }
+            Self::Polygon(polygon) => Self::CurvedPolygon(grown_polygon(&polygon.curved(), by, shortest)?),
             Self::CurvedPolygon(polygon) => Self::CurvedPolygon(grown_polygon(polygon, by, shortest)?),
             Self::ThroatCosine(_) => {
                 return Err((
@@ -154,19 +143,12 @@ fn left(size: f64, what: &str) -> Result<f64, Refused> {
 }
 
 fn grown_rectangle(rectangle: &Rectangle, by: f64, shortest: f64) -> Result<ShapeSpec, Refused> {
-    let Rectangle { center, size: [width, height], rotation_deg } = rectangle;
     if by < 0.0 {
+        let [width, height] = rectangle.size;
         let size = [left(width + 2.0 * by, "rectangle")?, left(height + 2.0 * by, "rectangle")?];
         return Ok(ShapeSpec::Rectangle(Rectangle { size, ..rectangle.clone() }));
     }
-    let [x, y] = [0.5 * width, 0.5 * height];
-    let polygon = CurvedPolygon {
-        outer: [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| [x, y, 0.0]).to_vec(),
-        holes: Vec::new(),
-        position: *center,
-        rotation_deg: *rotation_deg,
-    };
-    Ok(ShapeSpec::CurvedPolygon(grown_polygon(&polygon, by, shortest)?))
+    Ok(ShapeSpec::CurvedPolygon(grown_polygon(&rectangle.curved(), by, shortest)?))
 }
 
 fn grown_polygon(polygon: &CurvedPolygon, by: f64, shortest: f64) -> Result<CurvedPolygon, Refused> {

@@ -1,5 +1,7 @@
 //! Quantities derived from a profile h̄(x): the contact line by the tangent construction, heights, distances between profiles.
 
+use crate::analysis::convergence::slope;
+
 /// A maximum below this fraction of the highest does not count as a droplet.
 const PEAK: f64 = 0.05;
 
@@ -67,12 +69,7 @@ impl Profile {
 pub fn exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
     let logs: Vec<(f64, f64)> =
         points.into_iter().filter(|(t, y)| *t > 0.0 && *y > 0.0).map(|(t, y)| (t.ln(), y.ln())).collect();
-    let count = logs.len() as f64;
-    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / count;
-    let (t, y) = (mean(|p| p.0), mean(|p| p.1));
-    let spread: f64 = logs.iter().map(|p| (p.0 - t).powi(2)).sum();
-    let shared: f64 = logs.iter().map(|p| (p.0 - t) * (p.1 - y)).sum();
-    (spread > 0.0).then(|| shared / spread)
+    slope(&logs)
 }
 
 #[cfg(test)]

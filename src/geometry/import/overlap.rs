@@ -10,7 +10,7 @@ use crate::geometry::import::drawing::{Refusal, Ring};
 use crate::geometry::import::nest::Region;
 use crate::geometry::import::notes::Notes;
 use crate::geometry::rings::{crossings, faults};
-use crate::math::Vec2;
+use crate::math::{Vec2, root};
 
 /// Fraction of the smaller outline inside the larger one above which it is a hole.
 const HOLE: f64 = 0.5;
@@ -108,18 +108,12 @@ fn crossing_pairs(rings: &[Placed]) -> Vec<([usize; 2], Vec2)> {
 /// Connected groups of rings by their pairs, two or more in each group.
 fn groups(pairs: &[[usize; 2]], count: usize) -> Vec<Vec<usize>> {
     let mut first: Vec<usize> = (0..count).collect();
-    let find = |first: &[usize], mut i: usize| {
-        while first[i] != i {
-            i = first[i];
-        }
-        i
-    };
     for &[a, b] in pairs {
-        let (a, b) = (find(&first, a), find(&first, b));
+        let (a, b) = (root(&mut first, a), root(&mut first, b));
         first[a.max(b)] = a.min(b);
     }
     let mut groups = vec![Vec::new(); count];
-    (0..count).for_each(|i| groups[find(&first, i)].push(i));
+    (0..count).for_each(|i| groups[root(&mut first, i)].push(i));
     groups.retain(|group| group.len() > 1);
     groups
 }

@@ -4,7 +4,7 @@
 
 use super::affine::Affine;
 use super::biarc::SmoothCurve;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 
 /// The highest degree; programs write 3 and rarely 5.
 pub(crate) const HIGHEST_DEGREE: usize = 11;
@@ -69,9 +69,7 @@ impl BSpline {
 
     /// Width and height of the box around the control points.
     pub(crate) fn extent(&self) -> f64 {
-        let first = self.points[0];
-        let (low, high) = self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
-        (high - low).norm()
+        Bounds::around(self.points.iter().copied()).map_or(0.0, |bounds| bounds.size().norm())
     }
 
     /// The control points.

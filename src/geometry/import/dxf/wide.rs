@@ -8,7 +8,7 @@ use crate::geometry::import::combine::Solid;
 use crate::geometry::import::contour::Piece;
 use crate::geometry::import::drawing::Ring;
 use crate::geometry::rings::faults;
-use crate::math::{Vec2, perpendicular};
+use crate::math::{Bounds, Vec2, perpendicular};
 
 /// Lengths below this fraction of the size of the polyline count as zero.
 const TOLERANCE: f64 = 1e-9;
@@ -45,10 +45,9 @@ pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<P
         let found = format!("a polyline of {} edges with a width", edges.len());
         return Err((found, "its outline as a polyline of width 0"));
     }
-    let size =
-        vertices.iter().fold((vertices[0].point, vertices[0].point), |(a, b), v| (a.inf(&v.point), b.sup(&v.point)));
+    let size = Bounds::around(vertices.iter().map(|v| v.point)).map_or(0.0, |bounds| bounds.size().norm());
     let most = vertices.iter().flat_map(|v| v.width).fold(0.0, f64::max);
-    let tolerance = TOLERANCE * ((size.1 - size.0).norm() + most);
+    let tolerance = TOLERANCE * (size + most);
     let mut parts: Vec<Ring> = Vec::new();
     for edge in &edges {
         parts.extend(band(edge, tolerance)?);

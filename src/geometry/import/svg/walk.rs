@@ -153,7 +153,7 @@ impl<'a, 'input> Walk<'a, 'input> {
     }
 
     fn count(&mut self, kind: &str) {
-        *self.drawing.unused.entry(kind.to_owned()).or_default() += 1;
+        self.drawing.count(kind, 1);
     }
 
     fn children(&mut self, node: Node<'a, 'input>, context: &Context<'a>) {
