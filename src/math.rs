@@ -118,6 +118,15 @@ impl Polyline {
     }
 }
 
+/// An interval after a number of halvings, of which that part is kept that begins where `is_below` holds.
+pub(crate) fn halved([mut low, mut high]: [f64; 2], halvings: u32, is_below: impl Fn(f64) -> bool) -> [f64; 2] {
+    for _ in 0..halvings {
+        let middle = 0.5 * (low + high);
+        if is_below(middle) { low = middle } else { high = middle }
+    }
+    [low, high]
+}
+
 /// Restricts faer to one thread from now on: the order of its sums would depend on the number of threads. This crate builds it without threads, but a program
 /// that uses this library may enable them.
 pub fn factor_in_one_thread() {

@@ -16,7 +16,6 @@ const TREE_FROM: usize = 16;
 /// A piece of the surface, solid on the left.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    /// Its curve.
     pub(crate) curve: Curve,
     /// Index of its shape.
     pub(crate) shape: u32,
@@ -34,7 +33,6 @@ pub(crate) struct Nearest {
 /// Pieces with a search structure.
 #[derive(Clone)]
 pub(crate) struct Boundary {
-    /// The pieces.
     pub(crate) pieces: Vec<Piece>,
     /// For the start and end of each piece: the mean outward normal of the two pieces that join there.
     pub(crate) corners: Vec<[Option<Vec2>; 2]>,

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::geometry::body::{Body, Location, bulged_ring};
 use crate::geometry::boundary::split;
-use crate::geometry::curve::{Curve, cross};
+use crate::geometry::curve::{Curve, cross, unit};
 use crate::geometry::intersect::crossings;
 use crate::geometry::spec::{
     Capsule, Channel, CurvedPolygon, Disc, GeometrySpec, HalfPlane, Rectangle, ShapeSpec, SolidSide, ThroatDiscs,
@@ -107,10 +107,7 @@ impl ShapeSpec {
                 Self::Capsule(Capsule { radius: left(capsule.radius + by, "capsule")?, ..capsule.clone() })
             }
             Self::HalfPlane(plane) => {
-                let up = perpendicular(Vec2::new(
-                    plane.rotation_deg.to_radians().cos(),
-                    plane.rotation_deg.to_radians().sin(),
-                ));
+                let up = perpendicular(unit(plane.rotation_deg.to_radians()));
                 Self::HalfPlane(HalfPlane { point: (Vec2::from(plane.point) + up * by).into(), ..plane.clone() })
             }
             Self::Channel(channel) => {

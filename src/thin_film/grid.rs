@@ -16,7 +16,6 @@ pub trait Grid: Balance + std::fmt::Debug + Send + Sync {
     /// Velocity of the film at the nodes; 0 where there is practically no film.
     fn velocity(&self, v: &[f64]) -> Vec<f64>;
 
-    /// Energy.
     fn energy(&self, v: &[f64]) -> f64;
 }
 

@@ -42,7 +42,6 @@ impl GridFilm {
         self.grid().sizes().iter().zip(&self.state.height).map(|(size, v)| size * v).sum()
     }
 
-    /// Energy.
     pub(crate) fn energy(&self) -> f64 {
         self.grid().energy(&self.state.height)
     }

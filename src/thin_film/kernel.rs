@@ -30,18 +30,14 @@ struct Term {
 /// The smoothing kernel Φ on the infinite line [Pang2022, Eq. 41].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kernel {
-    alpha: f64,
+    /// Filter length α.
+    pub alpha: f64,
 }
 
 impl Kernel {
     /// The kernel of filter length `alpha`, above 0, in the unit of x.
     pub fn new(alpha: f64) -> Self {
         Self { alpha }
-    }
-
-    /// Filter length α.
-    pub fn alpha(&self) -> f64 {
-        self.alpha
     }
 
     fn term(&self, order: Order) -> Term {

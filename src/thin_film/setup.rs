@@ -62,30 +62,25 @@ pub(crate) fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, Setu
     let wall = [case.geometry.min[0], case.geometry.max[0]];
     let (wetting, equilibrium) = rest(film, &scales, &droplets)?;
     let pull = Pull { wetting, bond: scales.bond };
+    let resolution = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
     let moving = match film.method {
         FilmMethod::Particles(FilmParticles { integrator, tolerance, lattice_energy, sums }) => {
-            let alpha = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
             let masses = particles(&droplets, film.spacing / scales.length, film.weights);
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
             let state = Integrator::new(integrator, tolerance, masses.x.clone(), FIRST_STEP);
-            let mut equation = ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice_energy);
+            let mut equation = ParticleMethod::new(Kernel::new(resolution), &masses, pull, lattice_energy);
             if sums == FilmSums::Direct {
                 equation.sum_directly();
             }
-            Film::particles(equation, &masses, state)
+            Film::Particles { method: Box::new(equation), state }
         }
         FilmMethod::FiniteDifferences(FilmGrid { step_share }) => {
             let rule = StepRule { first: first_step(film, &scales), share: step_share, ..StepRule::ADAPTIVE };
             Film::Grid(Box::new(grid(film, &scales, &droplets, wall, pull, rule)?))
         }
     };
-    let resolution = match film.equation {
-        FilmEquation::Geometric(Geometric { smoothing_length }) => smoothing_length,
-        FilmEquation::Slip(_) | FilmEquation::Precursor(_) => film.spacing,
-    };
     let right = droplets.last().map_or(0.0, |droplet| droplet.center);
-    let resolution = resolution / scales.length;
     let surroundings = Surroundings {
         scales,
         wall,

@@ -59,7 +59,7 @@ struct Factors {
 
 impl Factors {
     fn new(kernel: &Kernel) -> Self {
-        let alpha = kernel.alpha();
+        let alpha = kernel.alpha;
         Self { alpha, height: 0.25 / alpha.powi(2), slope: 0.25 / alpha.powi(3), curvature: 0.25 / alpha.powi(4) }
     }
 }
@@ -80,7 +80,7 @@ impl FastSums {
     /// h̄ and its derivatives at the particles. `x` is ascending; `x`, `weight` and the fields of `out` have the same length.
     pub fn at_particles(&mut self, x: &[f64], weight: &[f64], out: &mut Smoothed) {
         let count = x.len();
-        let rate = -1.0 / self.kernel.alpha();
+        let rate = -1.0 / self.kernel.alpha;
         self.decay.clear();
         self.decay.extend(x.windows(2).map(|pair| (rate * (pair[1] - pair[0])).exp()));
         // The left sums are stored in the fields to which they contribute.
@@ -110,7 +110,7 @@ impl FastSums {
 
     /// h̄, h̄ₓ and h̄ₓₓ at other ascending positions; the third derivative, which jumps at particles, is left at zero.
     pub(crate) fn at_positions(&self, x: &[f64], weight: &[f64], positions: &[f64]) -> Smoothed {
-        let rate = -1.0 / self.kernel.alpha();
+        let rate = -1.0 / self.kernel.alpha;
         let factors = Factors::new(&self.kernel);
         let moved = |sums: OneSided, gap: f64| sums.moved(gap, (rate * gap).exp());
         let mut out = Smoothed::new(positions.len());

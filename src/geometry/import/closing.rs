@@ -22,9 +22,7 @@ const NO_AREA: f64 = 1e-12;
 pub(crate) enum Closed {
     /// An exact circle.
     Circle {
-        /// Center.
         center: Vec2,
-        /// Radius.
         radius: f64,
         /// Whether the contour runs around it clockwise.
         is_clockwise: bool,

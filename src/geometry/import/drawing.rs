@@ -210,16 +210,11 @@ pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
 /// The start of a curve with its bulge; a circle, or an arc of more than three quarters of one, in two halves.
 pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
     const LARGE: f64 = 1.5 * std::f64::consts::PI;
-    let vertex = |curve: &Curve| {
-        let p = curve.point(0.0);
-        let bulge = if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 };
-        [p.x, p.y, bulge]
-    };
     match curve {
         Curve::Arc { sweep, .. } if sweep.abs() > LARGE => {
-            vec![vertex(&curve.part(0.0, 0.5)), vertex(&curve.part(0.5, 1.0))]
+            vec![curve.part(0.0, 0.5).vertex(), curve.part(0.5, 1.0).vertex()]
         }
-        _ => vec![vertex(curve)],
+        _ => vec![curve.vertex()],
     }
 }
 
@@ -234,6 +229,25 @@ pub(super) mod seen {
             Outline::Disc { radius, .. } => std::f64::consts::PI * radius * radius,
             Outline::Area { rings, .. } => rings.iter().map(Ring::area).sum::<f64>().abs(),
         }
+    }
+
+    /// A rectangle by its lower left corner and its size.
+    pub(crate) fn bar(x: f64, y: f64, width: f64, height: f64) -> Ring {
+        let corners = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]];
+        Ring { vertices: corners.map(|[x, y]| [x, y, 0.0]).to_vec() }
+    }
+
+    /// Centers and radii of a drawing of discs.
+    pub(crate) fn discs(drawing: &Drawing) -> Vec<(Vec2, f64)> {
+        let disc = |outline: &Outline| match outline {
+            Outline::Disc { center, radius } => (*center, *radius),
+            other => panic!("{other:?}"),
+        };
+        drawing.entities.iter().map(|entity| disc(&entity.outline)).collect()
+    }
+
+    pub(crate) fn counts(of: &BTreeMap<String, usize>) -> Vec<(&str, usize)> {
+        of.iter().map(|(name, number)| (name.as_str(), *number)).collect()
     }
 
     pub(crate) fn only(drawing: &Drawing) -> &Outline {

@@ -168,11 +168,6 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_list_is_refused() {
-        assert_eq!(parse("# nothing\n").unwrap_err().len(), 1);
-    }
-
-    #[test]
     fn columns_are_picked_from_longer_lines_with_a_separator_of_their_own() {
         let options = Options { columns: Some([3, 1, 2]), separator: Some('|'), ..Options::default() };
         let drawing = read("name|y|r|x\npost a|2|0.5|1\n|4|0.25|3\n", &options).unwrap();

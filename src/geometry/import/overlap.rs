@@ -5,7 +5,7 @@
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::combine::{Solid, area};
+use crate::geometry::import::combine::{Solid, TOLERANCE, area};
 use crate::geometry::import::drawing::{Refusal, Ring};
 use crate::geometry::import::nest::Region;
 use crate::geometry::import::notes::Notes;
@@ -14,8 +14,6 @@ use crate::math::{Vec2, root};
 
 /// Fraction of the smaller outline inside the larger one above which it is a hole.
 const HOLE: f64 = 0.5;
-/// Lengths below this fraction of the size of the drawing count as zero at intersections.
-const TOLERANCE: f64 = 1e-9;
 /// Maximum number of rounds of uniting and cutting outlines until none cross.
 const ROUNDS: usize = 4;
 /// Maximum number of source locations in a note.
@@ -34,7 +32,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         if pairs.is_empty() {
             break;
         }
-        let solids: Vec<Option<Solid>> = rings.iter().map(|(ring, _)| Solid::of(&(ring.clone(), Vec::new()))).collect();
+        let solids: Vec<Option<Solid>> = rings.iter().map(|(ring, _)| Solid::of_ring(ring)).collect();
         let (mut together, mut cut): (Vec<[usize; 2]>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
         for &(pair, at) in &pairs {
             let [small, large] =
@@ -49,8 +47,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         let mut changed: Vec<Option<Vec<Placed>>> = vec![None; rings.len()];
         // United outlines may be nested differently: the outlines around them wait for the next round.
         for group in groups(&together, rings.len()) {
-            let parts: Vec<Solid> =
-                group.iter().filter_map(|&i| Solid::of(&(rings[i].0.clone(), Vec::new()))).collect();
+            let parts: Vec<Solid> = group.iter().filter_map(|&i| Solid::of_ring(&rings[i].0)).collect();
             let Some(all) = Solid::united(&parts, tolerance) else {
                 refusals.push(refusal(&rings, [group[0], group[1]], rings[group[0]].0.bounds().center()));
                 continue;

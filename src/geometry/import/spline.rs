@@ -14,7 +14,8 @@ pub(crate) const HIGHEST_DEGREE: usize = 11;
 pub(crate) struct BSpline {
     degree: usize,
     knots: Vec<f64>,
-    points: Vec<Vec2>,
+    /// The control points.
+    pub(crate) points: Vec<Vec2>,
     weights: Vec<f64>,
 }
 
@@ -70,11 +71,6 @@ impl BSpline {
     /// Width and height of the box around the control points.
     pub(crate) fn extent(&self) -> f64 {
         Bounds::around(self.points.iter().copied()).map_or(0.0, |bounds| bounds.size().norm())
-    }
-
-    /// The control points.
-    pub(crate) fn points(&self) -> &[Vec2] {
-        &self.points
     }
 
     /// The last span whose knots enclose `t`; at an inner knot the one on the given side.

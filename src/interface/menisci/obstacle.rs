@@ -27,11 +27,6 @@ impl Obstacle {
         Self { curves: curves.iter().map(local).map(|curve| (curve, curve.bounds())).collect() }
     }
 
-    /// The curvature at first contact along a leg.
-    pub(crate) fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
-        self.first_contacts(walls, leg).map(|(_, k)| k)
-    }
-
     /// The position of the meniscus at first contact along a leg, and its curvature.
     pub(crate) fn first_contacts(&self, walls: &Walls, leg: &Leg) -> Option<(Contacts, f64)> {
         let boxed = swept_box(walls, leg);

@@ -76,7 +76,7 @@ impl Reader<'_> {
     fn spend(&mut self, items: usize, location: impl Fn() -> String) -> bool {
         let has_room = self.budget.spend(items);
         if !has_room && !self.is_over {
-            let found = format!("blocks that unfold into more than {} entities and vertices", self.budget.total());
+            let found = format!("blocks that unfold into more than {} entities and vertices", self.budget.total);
             self.refuse(Refusal::new(location(), found, "a drawing with fewer copies of copies (INSERT)"));
             self.is_over = true;
         }

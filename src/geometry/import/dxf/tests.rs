@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::geometry::import::drawing::Outline;
-use crate::geometry::import::drawing::seen::{area, only};
+use crate::geometry::import::drawing::seen::{area, counts, discs, only};
 use crate::math::Vec2;
 
 /// Groups in short notation: `0 LINE; 8 walls; 10 0.5`.
@@ -27,19 +27,11 @@ fn drawn(entities: &str) -> Drawing {
     read(file("", entities).as_bytes(), None, None).unwrap()
 }
 
-fn discs(drawing: &Drawing) -> Vec<[f64; 3]> {
-    let disc = |outline: &Outline| match outline {
-        Outline::Disc { center, radius } => [center.x, center.y, *radius],
-        other => panic!("{other:?}"),
-    };
-    drawing.entities.iter().map(|entity| disc(&entity.outline)).collect()
-}
-
 fn assert_discs(drawing: &Drawing, expected: &[[f64; 3]]) {
     let found = discs(drawing);
     assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+    for ((center, radius), [x, y, r]) in found.iter().zip(expected) {
+        assert!((center - Vec2::new(*x, *y)).norm().max((radius - r).abs()) < 1e-12, "{found:?} {expected:?}");
     }
 }
 
@@ -135,17 +127,14 @@ fn layers_are_chosen_and_those_off_are_left_out() {
     let text = file(blocks, entities);
     let radii = |layers: Option<&[String]>| {
         let drawing = read(text.as_bytes(), layers, None).unwrap();
-        let counts: Vec<_> = drawing.layers.iter().map(|(name, number)| (name.as_str(), *number)).collect();
-        assert_eq!(counts, [("0", 1), ("cold", 1), ("dark", 1), ("walls", 1)]);
-        discs(&drawing).iter().map(|disc| disc[2]).collect::<Vec<_>>()
+        assert_eq!(counts(&drawing.layers), [("0", 1), ("cold", 1), ("dark", 1), ("walls", 1)]);
+        discs(&drawing).iter().map(|disc| disc.1).collect::<Vec<_>>()
     };
     assert_eq!(radii(None), [1.0, 4.0]);
     assert_eq!(radii(Some(&["walls".to_owned()])), [1.0]);
     assert_eq!(radii(Some(&["dark".to_owned(), "cold".to_owned()])), [2.0, 3.0], "layers that are named are read");
-    let unused = read(text.as_bytes(), None, None).unwrap().unused;
-    let unused: Vec<_> = unused.iter().map(|(kind, number)| (kind.as_str(), *number)).collect();
     assert_eq!(
-        unused,
+        counts(&read(text.as_bytes(), None, None).unwrap().unused),
         [("entities in paper space", 1), ("entities on layers that are off or frozen", 2), ("invisible entities", 1)]
     );
     let refusals = read(text.as_bytes(), Some(&["posts".to_owned()]), None).unwrap_err();
@@ -163,7 +152,6 @@ fn what_encloses_nothing_is_counted_by_its_kind() {
          0 POLYLINE; 70 64; 0 VERTEX; 10 0; 20 0; 0 SEQEND; 0 CIRCLE; 10 0; 20 0; 40 1",
     );
     assert_discs(&drawing, &[[0.0, 0.0, 1.0]]);
-    let unused: Vec<_> = drawing.unused.iter().map(|(kind, number)| (kind.as_str(), *number)).collect();
     let expected = [
         ("HATCH", 2),
         ("MPOLYGON", 1),
@@ -173,7 +161,7 @@ fn what_encloses_nothing_is_counted_by_its_kind() {
         ("meshes", 1),
         ("open lines", 3),
     ];
-    assert_eq!(unused, expected);
+    assert_eq!(counts(&drawing.unused), expected);
 }
 
 #[test]

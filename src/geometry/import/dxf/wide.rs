@@ -56,7 +56,7 @@ pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<P
     let joints = if is_closed { edges.len() } else { edges.len().saturating_sub(1) };
     parts.extend(edges.iter().zip(next).take(joints).filter_map(|(a, b)| joint(a, b, tolerance)));
     if is_closed {
-        let ring = Ring { vertices: edges.iter().map(|edge| start(&edge.curve)).collect() };
+        let ring = Ring { vertices: edges.iter().map(|edge| edge.curve.vertex()).collect() };
         let curves: Vec<Curve> = bulged_ring(&ring.vertices).collect();
         if !faults(&[curves]).is_empty() {
             return Err((
@@ -66,7 +66,7 @@ pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<P
         }
         parts.extend(Some(ring).filter(|ring| ring.width() > tolerance));
     }
-    let solids: Vec<Solid> = parts.into_iter().filter_map(|ring| Solid::of(&(ring, Vec::new()))).collect();
+    let solids: Vec<Solid> = parts.iter().filter_map(Solid::of_ring).collect();
     let united = Solid::united(&solids, tolerance).ok_or_else(|| {
         let found = "a polyline whose sides touch in a point".to_owned();
         (found, "another width, or its outlines as polylines of width 0")
@@ -83,15 +83,6 @@ fn edges(vertices: &[Vertex], is_closed: bool) -> Vec<Edge> {
         half: a.width.map(|width| 0.5 * width),
     };
     pairs.filter(|(a, b)| a.point != b.point).map(edge).collect()
-}
-
-fn start(curve: &Curve) -> [f64; 3] {
-    let p = curve.point(0.0);
-    [p.x, p.y, bulge(curve)]
-}
-
-fn bulge(curve: &Curve) -> f64 {
-    if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 }
 }
 
 /// The area covered by an edge, each ring counter-clockwise; empty without width.

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::import::drawing::seen::{area, only};
+use crate::geometry::import::drawing::seen::{area, counts, discs, only};
 use crate::geometry::import::drawing::{FillRule, Outline, Paint};
 use crate::math::Vec2;
 
@@ -16,14 +16,6 @@ fn page(attributes: &str, content: &str) -> String {
 
 fn drawn(content: &str) -> Drawing {
     read(&page("viewBox=\"0 0 100 50\"", content), None).unwrap()
-}
-
-fn discs(drawing: &Drawing) -> Vec<(Vec2, f64)> {
-    let disc = |outline: &Outline| match outline {
-        Outline::Disc { center, radius } => (*center, *radius),
-        other => panic!("{other:?}"),
-    };
-    drawing.entities.iter().map(|entity| disc(&entity.outline)).collect()
 }
 
 fn disc(drawing: &Drawing) -> (Vec2, f64) {
@@ -110,6 +102,32 @@ fn transforms_change_areas_by_their_determinant_and_move_centers() {
     let inner = Vec2::new(2.0 + 20f64.to_radians().tan() * 2.0, 2.0).component_mul(&Vec2::new(2.0, 3.0));
     let turned = nalgebra::Rotation2::new(27f64.to_radians()) * (inner - Vec2::new(1.0, 2.0)) + Vec2::new(4.0, 6.0);
     assert!((center - Vec2::new(turned.x, 50.0 - turned.y)).norm() < 1e-12, "{center}");
+}
+
+#[test]
+fn css_moves_shapes_and_what_it_says_beyond_transforms_is_refused_with_its_line() {
+    for content in [
+        "<circle r='5' style='transform: translate(10px, 30px)'/>",
+        "<style>#a{transform:translate(10px) translateY(30px)}</style><circle id='a' r='5' transform='scale(9)'/>",
+        "<g style='transform:scale(.5)'><circle cx='20' cy='60' r='10'/></g>",
+        "<circle cx='50' cy='25' r='5' style='transform: translate(-40px, 5px) rotate(1turn); transform-origin: center'/>",
+        "<symbol id='s' style='transform:translate(10px,30px)'><circle r='5'/></symbol><use href='#s'/>",
+    ] {
+        let (center, radius) = disc(&drawn(content));
+        assert!((center - Vec2::new(10.0, 20.0)).norm() < 1e-12 && (radius - 5.0).abs() < 1e-12, "{content}: {center}");
+    }
+    for (style, found) in [
+        ("transform: rotateY(20deg)", "`transform: rotateY(20deg)`"),
+        ("transform: translate(1em)", "`transform: translate(1em)`"),
+        ("transform: rotate(20deg); transform-box: fill-box", "`transform-box: fill-box`"),
+        ("rotate: 20deg", "`rotate: 20deg` in its style"),
+        ("r: 7px", "`r: 7px` in its style"),
+    ] {
+        let text = page("viewBox='0 0 100 50'", &format!("<circle r='2' style='{style}'/>"));
+        let refusals = read(&text, None).unwrap_err();
+        let message = refusals[0].to_string();
+        assert!(message.starts_with("line 2: found ") && message.contains(found), "{message}");
+    }
 }
 
 #[test]
@@ -200,8 +218,7 @@ fn what_is_not_seen_is_not_read_but_counted() {
     );
     let drawing = drawn(&content);
     assert_eq!(radii(&drawing), [2.0, 3.0]);
-    let unused: Vec<_> = drawing.unused.iter().map(|(kind, number)| (kind.as_str(), *number)).collect();
-    assert_eq!(unused, [("hidden elements", 5), ("image", 1), ("open lines", 2), ("text", 2)]);
+    assert_eq!(counts(&drawing.unused), [("hidden elements", 5), ("image", 1), ("open lines", 2), ("text", 2)]);
     assert_eq!(drawing.notes, ["1 elements have a clip or a mask, which is not applied."]);
 }
 
@@ -237,12 +254,9 @@ fn elements_for_other_languages_and_extensions_are_not_drawn() {
     let german = "<rect systemLanguage='de' width='3' height='3'/>";
     let english = "<rect systemLanguage='fr, en-GB' width='2' height='2'/>";
     let plain = "<rect width='1' height='1'/>";
-    let count = |text: &str| drawn(text).entities.len();
-    assert_eq!(count(&format!("<switch>{german}{plain}{english}</switch>")), 1);
-    assert_eq!(
-        count(&format!("{german}{english}{plain}<rect requiredExtensions='http://a' width='9' height='9'/>")),
-        2
-    );
+    let switch = format!("<switch>{german}{plain}{english}</switch>");
+    let all = format!("{german}{english}{plain}<rect requiredExtensions='http://a' width='9' height='9'/>");
+    assert_eq!([switch, all].map(|text| drawn(&text).entities.len()), [1, 2]);
 }
 
 #[test]
@@ -265,8 +279,7 @@ fn layers_are_chosen_by_label_or_id_and_counted() {
     let radii_on = |layers: &[&str]| {
         let layers: Vec<String> = layers.iter().map(|layer| (*layer).to_owned()).collect();
         let drawing = read(&text, Some(&layers)).unwrap();
-        let counts: Vec<_> = drawing.layers.iter().map(|(name, number)| (name.as_str(), *number)).collect();
-        assert_eq!(counts, [("frame", 1), ("posts", 2)]);
+        assert_eq!(counts(&drawing.layers), [("frame", 1), ("posts", 2)]);
         assert_eq!(drawing.unused["elements on other layers"], 4 - drawing.entities.len());
         radii(&drawing)
     };
