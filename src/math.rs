@@ -48,6 +48,10 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// A box without points: united with another one it is that one.
+    pub(crate) const EMPTY: Self =
+        Self { min: Vec2::new(f64::INFINITY, f64::INFINITY), max: Vec2::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+
     /// Width and height in m.
     pub fn size(&self) -> Vec2 {
         self.max - self.min
@@ -89,6 +93,38 @@ impl Bounds {
         let by = Vec2::repeat(margin);
         Self { min: self.min - by, max: self.max + by }
     }
+}
+
+/// An ordered line of points; of a contour the high side of the field is on its left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyline {
+    /// Vertices in m; the first one is not repeated at the end of a closed line.
+    pub points: Vec<Vec2>,
+    /// Whether the last vertex is connected to the first one.
+    pub closed: bool,
+}
+
+impl Polyline {
+    /// Length in m.
+    pub fn length(&self) -> f64 {
+        self.segments().map(|(a, b)| (b - a).norm()).sum()
+    }
+
+    /// The segments between vertices, including the closing one of a closed line.
+    pub(crate) fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+        let count = self.points.len();
+        let segments = if self.closed && count > 1 { count } else { count.saturating_sub(1) };
+        (0..segments).map(move |i| (self.points[i], self.points[(i + 1) % count]))
+    }
+}
+
+/// An interval after a number of halvings, of which that part is kept that begins where `is_below` holds.
+pub(crate) fn halved([mut low, mut high]: [f64; 2], halvings: u32, is_below: impl Fn(f64) -> bool) -> [f64; 2] {
+    for _ in 0..halvings {
+        let middle = 0.5 * (low + high);
+        if is_below(middle) { low = middle } else { high = middle }
+    }
+    [low, high]
 }
 
 /// Restricts faer to one thread from now on: the order of its sums would depend on the number of threads. This crate builds it without threads, but a program

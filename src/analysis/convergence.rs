@@ -7,13 +7,17 @@ use super::roots::bisect;
 
 /// Slope of log(error) over log(spacing) by least squares; NaN for fewer than two points or an error of 0 \[Roache1998\].
 pub(crate) fn observed_order(spacings: &[f64], errors: &[f64]) -> f64 {
-    let count = spacings.len().min(errors.len()) as f64;
-    let points = || spacings.iter().zip(errors).map(|(h, e)| (h.ln(), e.abs().ln()));
-    let mean_x = points().map(|(x, _)| x).sum::<f64>() / count;
-    let mean_y = points().map(|(_, y)| y).sum::<f64>() / count;
-    let xy: f64 = points().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
-    let xx: f64 = points().map(|(x, _)| (x - mean_x).powi(2)).sum();
-    xy / xx
+    let logs: Vec<(f64, f64)> = spacings.iter().zip(errors).map(|(h, e)| (h.ln(), e.abs().ln())).collect();
+    slope(&logs).unwrap_or(f64::NAN)
+}
+
+/// The slope of a straight line by least squares; `None` for fewer than two points.
+pub(crate) fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / points.len() as f64;
+    let (mean_x, mean_y) = (mean(|p| p.0), mean(|p| p.1));
+    let xy: f64 = points.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let xx: f64 = points.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
+    (xx > 0.0).then(|| xy / xx)
 }
 
 /// Richardson extrapolation from three spacings.

@@ -47,7 +47,6 @@ pub(crate) struct PressureSamples<'a> {
     pub(crate) points: &'a [Vec2],
     /// Pressures in Pa.
     pub(crate) pressures: &'a [f64],
-    /// Colors.
     pub(crate) colors: &'a [f64],
     /// Smoothing length h in m.
     pub(crate) smoothing_length: f64,
@@ -206,6 +205,10 @@ mod tests {
         Polyline { points, closed: true }
     }
 
+    fn samples<'a>(points: &'a [Vec2], pressures: &'a [f64], colors: &'a [f64], h: f64) -> PressureSamples<'a> {
+        PressureSamples { points, pressures, colors, smoothing_length: h, period: [None, None] }
+    }
+
     #[test]
     fn areas_sum_to_the_fluid_and_drift_is_relative() {
         let areas = PhaseAreas::new(&[1.0, 2.0, 3.0], &[1.0, 0.0, 0.0]);
@@ -226,13 +229,7 @@ mod tests {
             if spoiled { 100.0 } else { 8.0 * f64::from(p.norm() < radius) + 3.0 }
         };
         let pressures: Vec<f64> = points.iter().map(pressure).collect();
-        let samples = PressureSamples {
-            points: &points,
-            pressures: &pressures,
-            colors: &colors,
-            smoothing_length: h,
-            period: [None, None],
-        };
+        let samples = samples(&points, &pressures, &colors, h);
         let wall = |x: Vec2| WallPoint { distance: x.y + 1.0, normal: Vec2::y() };
         let found = capillary_pressure(&samples, &[circle(Vec2::zeros(), radius, 200)], &wall);
         assert!(found.away_from_walls && (found.value + 8.0).abs() < 1e-9, "{found:?}");
@@ -241,13 +238,8 @@ mod tests {
 
     #[test]
     fn a_phase_without_particles_away_from_the_interface_has_no_pressure() {
-        let samples = PressureSamples {
-            points: &[Vec2::zeros()],
-            pressures: &[1.0],
-            colors: &[1.0],
-            smoothing_length: 0.1,
-            period: [None, None],
-        };
+        let points = [Vec2::zeros()];
+        let samples = samples(&points, &[1.0], &[1.0], 0.1);
         let wall = |_| WallPoint { distance: 1.0, normal: Vec2::y() };
         let found = capillary_pressure(&samples, &[], &wall);
         assert!(found.value.is_nan() && !found.away_from_walls);
@@ -257,13 +249,7 @@ mod tests {
     fn the_laplace_jump_leaves_out_a_band_of_six_smoothing_lengths() {
         let points = Lattice::open(Vec2::repeat(-1.0), Vec2::repeat(0.02), [101, 101]).nodes();
         let pressures: Vec<f64> = points.iter().map(|p| if p.norm() < 0.5 { 2.0 } else { 0.0 }).collect();
-        let samples = PressureSamples {
-            points: &points,
-            pressures: &pressures,
-            colors: &pressures,
-            smoothing_length: 0.03,
-            period: [None, None],
-        };
+        let samples = samples(&points, &pressures, &pressures, 0.03);
         assert!((laplace_jump(&samples, Vec2::zeros(), 0.52).mean - 2.0).abs() < 1e-12);
     }
 

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use super::shapes::{self, RawGeometry, RawShapeFile};
 use crate::geometry::ShapeFileError;
-use crate::geometry::import::{self, Format, Imported, Options};
+use crate::geometry::import::{self, Format, Imported, Options, Refused};
 use crate::input::{Checker, Document, InputError, Mistake, Overrides, Problem, file};
 
 /// The shape file of the built-in case, as named there.
@@ -146,14 +146,16 @@ fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, N
         return shape_text(&name, &read(path, help)?, options);
     }
     crate::geometry::load(path, options).map_err(|error| match error {
-        ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
         ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, help)),
-        ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
-            (format!("{}: found {}", refusal.location, refusal.found), format!("expected {}", refusal.expected))
-        })),
-        ShapeFileError::Shapes { path, problems } => NotRead::File(each_part(&name, &path, &problems, |problem| {
-            (format!("{}: {}", problem.path, problem.message), problem.help.clone())
-        })),
+        ShapeFileError::Refused { path, refused } => match refused {
+            Refused::Keys(problems) => NotRead::Keys(problems),
+            Refused::Parts(refusals) => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
+                (format!("{}: found {}", refusal.location, refusal.found), format!("expected {}", refusal.expected))
+            })),
+            Refused::Shapes(problems) => NotRead::File(each_part(&name, &path, &problems, |problem| {
+                (format!("{}: {}", problem.path, problem.message), problem.help.clone())
+            })),
+        },
         error => NotRead::File(Mistake::of_file(&name, error.to_string(), "").into()),
     })
 }

@@ -16,7 +16,6 @@ const TREE_FROM: usize = 16;
 /// A piece of the surface, solid on the left.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    /// Its curve.
     pub(crate) curve: Curve,
     /// Index of its shape.
     pub(crate) shape: u32,
@@ -34,7 +33,6 @@ pub(crate) struct Nearest {
 /// Pieces with a search structure.
 #[derive(Clone)]
 pub(crate) struct Boundary {
-    /// The pieces.
     pub(crate) pieces: Vec<Piece>,
     /// For the start and end of each piece: the mean outward normal of the two pieces that join there.
     pub(crate) corners: Vec<[Option<Vec2>; 2]>,
@@ -54,24 +52,28 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
     if parameters.is_empty() {
         return vec![*curve];
     }
+    divided(curve, parameters, tolerance).into_iter().map(|[from, to]| curve.part(from, to)).collect()
+}
+
+/// The intervals between parameters of a curve that are longer than `tolerance` (m).
+pub(crate) fn divided(curve: &Curve, mut parameters: Vec<f64>, tolerance: f64) -> Vec<[f64; 2]> {
     parameters.sort_by(f64::total_cmp);
-    let shortest = tolerance / curve.length();
-    if curve.is_closed() {
+    if let Some(&first) = parameters.first().filter(|_| curve.is_closed()) {
         // Starting at the first intersection keeps an arc across the circle's start in one piece.
-        parameters.push(parameters[0] + 1.0);
+        parameters.push(first + 1.0);
     } else {
         parameters.insert(0, 0.0);
         parameters.push(1.0);
     }
-    let mut parts = Vec::new();
-    let mut from = parameters[0];
+    let shortest = tolerance / curve.length();
+    let (mut found, mut from) = (Vec::new(), parameters[0]);
     for &to in &parameters[1..] {
         if to - from > shortest {
-            parts.push(curve.part(from, to));
+            found.push([from, to]);
             from = to;
         }
     }
-    parts
+    found
 }
 
 /// Whether a part with this outward normal remains in a union with one other body.

@@ -118,6 +118,13 @@ impl Curve {
         }
     }
 
+    /// Its start with its bulge.
+    pub(crate) fn vertex(&self) -> [f64; 3] {
+        let bulge = if let Self::Arc { sweep, .. } = self { (0.25 * sweep).tan() } else { 0.0 };
+        let start = self.point(0.0);
+        [start.x, start.y, bulge]
+    }
+
     /// The unit tangent at `u`.
     pub(crate) fn tangent(&self, u: f64) -> Vec2 {
         match self {

@@ -62,11 +62,7 @@ impl CurveSet {
 
     /// The smallest box around all curves.
     pub(crate) fn bounds(&self) -> Bounds {
-        let empty = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
-        self.curves
-            .iter()
-            .map(Curve::bounds)
-            .fold(empty, |a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) })
+        self.curves.iter().fold(Bounds::EMPTY, |all, curve| all.united(&curve.bounds()))
     }
 }
 

@@ -16,8 +16,7 @@ pub(crate) struct Elements {
 impl Elements {
     /// Parts with the pore on the right of their `boundaries` (m); `images` are the shifts to periodic images in m, zero first.
     pub(crate) fn new(boundaries: Vec<Vec<Curve>>, images: Vec<Vec2>) -> Self {
-        let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
-        let around = |curves: &Vec<Curve>| curves.iter().map(Curve::bounds).fold(none, |a, b| a.united(&b));
+        let around = |curves: &Vec<Curve>| curves.iter().fold(Bounds::EMPTY, |all, curve| all.united(&curve.bounds()));
         let tree = Tree::over(boundaries.iter().map(around));
         Self { boundaries, tree, images }
     }

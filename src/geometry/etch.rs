@@ -8,11 +8,10 @@ use std::f64::consts::TAU;
 
 use crate::geometry::body::{Body, Location, bulged_ring};
 use crate::geometry::boundary::split;
-use crate::geometry::curve::{Curve, cross};
+use crate::geometry::curve::{Curve, cross, unit};
 use crate::geometry::intersect::crossings;
 use crate::geometry::spec::{
-    Capsule, Channel, CurvedPolygon, Disc, GeometrySpec, HalfPlane, Polygon, Rectangle, ShapeSpec, SolidSide,
-    ThroatDiscs,
+    Capsule, Channel, CurvedPolygon, Disc, GeometrySpec, HalfPlane, Rectangle, ShapeSpec, SolidSide, ThroatDiscs,
 };
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2, perpendicular};
@@ -108,10 +107,7 @@ impl ShapeSpec {
                 Self::Capsule(Capsule { radius: left(capsule.radius + by, "capsule")?, ..capsule.clone() })
             }
             Self::HalfPlane(plane) => {
-                let up = perpendicular(Vec2::new(
-                    plane.rotation_deg.to_radians().cos(),
-                    plane.rotation_deg.to_radians().sin(),
-                ));
+                let up = perpendicular(unit(plane.rotation_deg.to_radians()));
                 Self::HalfPlane(HalfPlane { point: (Vec2::from(plane.point) + up * by).into(), ..plane.clone() })
             }
             Self::Channel(channel) => {
@@ -123,17 +119,7 @@ impl ShapeSpec {
                 ..throat.clone()
             }),
             Self::Rectangle(rectangle) => grown_rectangle(rectangle, by, shortest)?,
-            Self::Polygon(polygon) => {
-                let straight = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect();
-                let Polygon { outer, holes, position, rotation_deg } = polygon;
-                let polygon = CurvedPolygon {
-                    outer: straight(outer),
-                    holes: holes.iter().map(straight).collect(),
-                    position: *position,
-                    rotation_deg: *rotation_deg,
-                };
-                Self::CurvedPolygon(grown_polygon(&polygon, by, shortest)?)
-            }
+            Self::Polygon(polygon) => Self::CurvedPolygon(grown_polygon(&polygon.curved(), by, shortest)?),
             Self::CurvedPolygon(polygon) => Self::CurvedPolygon(grown_polygon(polygon, by, shortest)?),
             Self::ThroatCosine(_) => {
                 return Err((
@@ -154,19 +140,12 @@ fn left(size: f64, what: &str) -> Result<f64, Refused> {
 }
 
 fn grown_rectangle(rectangle: &Rectangle, by: f64, shortest: f64) -> Result<ShapeSpec, Refused> {
-    let Rectangle { center, size: [width, height], rotation_deg } = rectangle;
     if by < 0.0 {
+        let [width, height] = rectangle.size;
         let size = [left(width + 2.0 * by, "rectangle")?, left(height + 2.0 * by, "rectangle")?];
         return Ok(ShapeSpec::Rectangle(Rectangle { size, ..rectangle.clone() }));
     }
-    let [x, y] = [0.5 * width, 0.5 * height];
-    let polygon = CurvedPolygon {
-        outer: [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| [x, y, 0.0]).to_vec(),
-        holes: Vec::new(),
-        position: *center,
-        rotation_deg: *rotation_deg,
-    };
-    Ok(ShapeSpec::CurvedPolygon(grown_polygon(&polygon, by, shortest)?))
+    Ok(ShapeSpec::CurvedPolygon(grown_polygon(&rectangle.curved(), by, shortest)?))
 }
 
 fn grown_polygon(polygon: &CurvedPolygon, by: f64, shortest: f64) -> Result<CurvedPolygon, Refused> {

@@ -6,6 +6,9 @@
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
+/// Lines and circles that are tangent within this fraction of the radii count; the caller decides.
+const SLACK: f64 = 1e-9;
+
 /// Adds to `found` the parameters on `curve` at its intersections with `other`, within `tolerance` in m.
 pub(crate) fn intersections(curve: &Curve, other: &Curve, tolerance: f64, found: &mut Vec<f64>) {
     let mut keep = |x: Vec2| {
@@ -27,10 +30,10 @@ pub(crate) fn crossings(curve: &Curve, other: &Curve) -> Vec<Vec2> {
         (Curve::Segment { a, b }, Curve::Segment { a: c, b: d }) => line_line(a, b - a, c, d - c).into_iter().collect(),
         (Curve::Segment { a, b }, Curve::Arc { center, radius, .. })
         | (Curve::Arc { center, radius, .. }, Curve::Segment { a, b }) => {
-            line_circle(a, b - a, center, radius).into_iter().flatten().collect()
+            line_circle(a, b - a, center, radius, SLACK).into_iter().flatten().collect()
         }
         (Curve::Arc { center, radius, .. }, Curve::Arc { center: c, radius: r, .. }) => {
-            circle_circle(center, radius, c, r).into_iter().flatten().collect()
+            circle_circle(center, radius, c, r, SLACK).into_iter().flatten().collect()
         }
     }
 }
@@ -44,21 +47,23 @@ fn line_line(a: Vec2, along: Vec2, c: Vec2, other: Vec2) -> Option<Vec2> {
     Some(a + along * (cross(c - a, other) / determinant))
 }
 
-fn line_circle(a: Vec2, along: Vec2, center: Vec2, radius: f64) -> [Option<Vec2>; 2] {
+/// The intersections of a line and a circle, twice the same point where they are tangent within `slack` (relative).
+pub(crate) fn line_circle(a: Vec2, along: Vec2, center: Vec2, radius: f64, slack: f64) -> [Option<Vec2>; 2] {
     let Some(t) = along.try_normalize(0.0) else { return [None, None] };
     let middle = a + t * (center - a).dot(&t);
     let miss = (center - middle).norm();
-    // A line tangent within rounding still counts; `keep` decides.
-    let half =
-        if miss > radius * (1.0 + 1e-9) { return [None, None] } else { (radius - miss).max(0.0) * (radius + miss) };
-    let half = half.sqrt();
+    if miss > radius * (1.0 + slack) {
+        return [None, None];
+    }
+    let half = ((radius - miss).max(0.0) * (radius + miss)).sqrt();
     [Some(middle - t * half), Some(middle + t * half)]
 }
 
-fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64) -> [Option<Vec2>; 2] {
+/// The intersections of two circles, twice the same point where they are tangent within `slack` (relative).
+pub(crate) fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64, slack: f64) -> [Option<Vec2>; 2] {
     let between = c2 - c1;
     let distance = between.norm();
-    let slack = 1e-9 * (r1 + r2);
+    let slack = slack * (r1 + r2);
     if distance == 0.0 || distance > r1 + r2 + slack || distance < (r1 - r2).abs() - slack {
         return [None, None];
     }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::geometry::boundary::{Nearest, Piece, chains, followers};
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
-use crate::math::{Bounds, Vec2};
+use crate::math::{Bounds, Polyline, Vec2};
 
 /// Tolerance of the depth over the distance of samples.
 const SAME_DEPTH: f64 = 1e-2;
@@ -24,26 +24,7 @@ const LEAST_SAMPLES: usize = 16;
 /// Ends of a line nearer than this many distances of samples are joined: the two sides of a corner.
 const JOINED: f64 = 2.0;
 
-/// A line at a constant depth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OffsetCurve {
-    /// Its points in m, finely sampled.
-    pub points: Vec<Vec2>,
-    /// Whether the last point is connected to the first.
-    pub closed: bool,
-}
-
-impl OffsetCurve {
-    /// Length in m.
-    pub fn length(&self) -> f64 {
-        self.segments().map(|(a, b)| (b - a).norm()).sum()
-    }
-
-    fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-        let back = self.closed.then(|| (self.points[self.points.len() - 1], self.points[0]));
-        self.points.windows(2).map(|pair| (pair[0], pair[1])).chain(back)
-    }
-
+impl Polyline {
     /// Equidistant points along the line, as near to `spacing` (m) as their number allows; an even number on a closed line, which preserves the symmetry of a
     /// disc.
     pub(crate) fn every(&self, spacing: f64) -> Vec<Vec2> {
@@ -157,7 +138,7 @@ impl<'a> UnfittedSurface<'a> {
     }
 
     /// The lines at `depth` below the surface, or above it if that is negative, where `within` holds, sampled at intervals `step`; all in m.
-    pub fn offset_curves(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<OffsetCurve> {
+    pub fn offset_curves(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<Polyline> {
         let mut offset_curves = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
             let samples = self.samples(&chain, is_closed, depth, step);
@@ -218,7 +199,7 @@ impl<'a> UnfittedSurface<'a> {
         is_closed: bool,
         (depth, step): (f64, f64),
         within: impl Fn(Vec2) -> bool + Sync,
-    ) -> Vec<OffsetCurve> {
+    ) -> Vec<Polyline> {
         let has_depth = |x: Vec2| {
             let is_at_depth = |near: Near| (near.distance + depth).abs() < SAME_DEPTH * step && near.is_unfitted;
             within(x) && self.near(x, 2.0 * depth.abs()).is_some_and(is_at_depth)
@@ -237,7 +218,7 @@ impl<'a> UnfittedSurface<'a> {
         let n = samples.len();
         let first = if is_closed { good.iter().position(|good| !good) } else { None };
         let Some(first) = first.or((!is_closed).then_some(0)) else {
-            return vec![OffsetCurve { points: (0..n).map(sample).collect(), closed: true }];
+            return vec![Polyline { points: (0..n).map(sample).collect(), closed: true }];
         };
         let mut lines: Vec<Vec<Vec2>> = Vec::new();
         let mut line: Vec<Vec2> = Vec::new();
@@ -270,7 +251,7 @@ fn fan(corner: Vec2, spoke: Vec2, angle: f64, step: f64) -> impl Iterator<Item =
 }
 
 /// Joins lines whose ends are within `reach` (m) of the start of the next one; lines shorter than that are dropped.
-fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<OffsetCurve> {
+fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<Polyline> {
     let mut joined: Vec<Vec<Vec2>> = Vec::new();
     for line in lines {
         match joined.last_mut().filter(|last| (last[last.len() - 1] - line[0]).norm() < reach) {
@@ -278,7 +259,7 @@ fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<OffsetCurve> 
             None => joined.push(line),
         }
     }
-    let mut curves: Vec<OffsetCurve> = joined.into_iter().map(|points| OffsetCurve { points, closed: false }).collect();
+    let mut curves: Vec<Polyline> = joined.into_iter().map(|points| Polyline { points, closed: false }).collect();
     if is_closed {
         close(&mut curves, reach);
     }
@@ -287,13 +268,13 @@ fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<OffsetCurve> 
 }
 
 /// Joins the last line of a closed chain to the first one if it continues into it.
-fn close(curves: &mut Vec<OffsetCurve>, reach: f64) {
+fn close(curves: &mut Vec<Polyline>, reach: f64) {
     let Some(last) = curves.pop() else { return };
     let end = last.points[last.points.len() - 1];
     match curves.first_mut() {
         None => {
             let closed = (end - last.points[0]).norm() < reach;
-            curves.push(OffsetCurve { closed, ..last });
+            curves.push(Polyline { closed, ..last });
         }
         Some(first) if (end - first.points[0]).norm() < reach => {
             first.points = last.points.into_iter().chain(std::mem::take(&mut first.points)).collect();

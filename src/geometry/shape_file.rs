@@ -5,13 +5,11 @@
 use std::path::{Path, PathBuf};
 
 use crate::geometry::import::build::{Imported, Refused};
-use crate::geometry::import::drawing::Refusal;
 use crate::geometry::import::format::Format;
 use crate::geometry::import::options::Options;
 use crate::geometry::import::read::read;
 use crate::geometry::import::reading::build;
 use crate::input::file;
-use crate::input::problem::Problem;
 
 /// Why a shape file was refused.
 #[derive(Debug, thiserror::Error)]
@@ -36,34 +34,14 @@ pub enum ShapeFileError {
         /// Absolute path.
         path: PathBuf,
     },
-    /// Keys besides the file are missing or invalid.
-    #[error("{}: {}", path.display(), join(problems))]
-    Keys {
+    /// The file can be read, but not its shapes.
+    #[error("{}: {refused}", path.display())]
+    Refused {
         /// Absolute path.
         path: PathBuf,
-        /// The problems; their paths are keys, such as `unit`.
-        problems: Vec<Problem>,
+        /// The reason.
+        refused: Refused,
     },
-    /// Parts of the file cannot be read: all of them.
-    #[error("{}: {} mistake(s)\n{}", path.display(), refusals.len(), join(refusals))]
-    Parts {
-        /// Absolute path.
-        path: PathBuf,
-        /// The parts in order.
-        refusals: Vec<Refusal>,
-    },
-    /// Every part can be read, but the shapes are invalid.
-    #[error("{}: {} problem(s)\n{}", path.display(), problems.len(), join(problems))]
-    Shapes {
-        /// Absolute path.
-        path: PathBuf,
-        /// The problems, with the shapes numbered as in the file.
-        problems: Vec<Problem>,
-    },
-}
-
-fn join<T: ToString>(items: &[T]) -> String {
-    items.iter().map(|item| format!("  {}", item.to_string())).collect::<Vec<_>>().join("\n")
 }
 
 /// Reads a shape file, by its extension; the result has no problems.
@@ -79,19 +57,13 @@ pub fn load(path: &Path, options: &Options) -> Result<Imported, ShapeFileError> 
     };
     let problems = options.problems(format);
     if !problems.is_empty() {
-        return Err(ShapeFileError::Keys { path, problems });
+        return Err(ShapeFileError::Refused { path, refused: Refused::Keys(problems) });
     }
     let bytes = match file::read(&path, file::LARGEST) {
         Ok(bytes) => bytes,
         Err(source) => return Err(ShapeFileError::Read { path, source }),
     };
-    let drawing = match read(&bytes, &path, format, options) {
-        Ok(drawing) => drawing,
-        Err(refusals) => return Err(ShapeFileError::Parts { path, refusals }),
-    };
-    build(drawing, format, options).map_err(|refused| match refused {
-        Refused::Keys(problems) => ShapeFileError::Keys { path, problems },
-        Refused::Parts(refusals) => ShapeFileError::Parts { path, refusals },
-        Refused::Shapes(problems) => ShapeFileError::Shapes { path, problems },
-    })
+    let drawing = read(&bytes, &path, format, options).map_err(Refused::Parts);
+    let shapes = drawing.and_then(|drawing| build(drawing, format, options));
+    shapes.map_err(|refused| ShapeFileError::Refused { path, refused })
 }

@@ -265,20 +265,8 @@ impl Geometry {
             }
             body = clip_body(&body, strip, self.tolerance());
         }
-        let shifts = |i: usize| -> Vec<f64> {
-            if !self.periodic[i] {
-                return vec![0.0];
-            }
-            let first = ((self.domain.min[i] - size[i] - body.bounds.max[i]) / size[i]).ceil() as i64;
-            let last = ((self.domain.max[i] + size[i] - body.bounds.min[i]) / size[i]).floor() as i64;
-            (first..=last).map(|k| k as f64 * size[i]).collect()
-        };
-        let rows = shifts(1);
-        let mut images = Vec::new();
-        for dx in shifts(0) {
-            images.extend(rows.iter().map(|&dy| body.shifted(Vec2::new(dx, dy))));
-        }
-        images
+        let shifts = surface::shifts(self.domain, self.periodic, body.bounds, 1.0);
+        shifts.into_iter().map(|by| body.shifted(by)).collect()
     }
 
     fn side_walls(&self) -> Vec<Body> {

@@ -196,6 +196,24 @@ shapes! {
     }
 }
 
+impl Polygon {
+    /// The same with edges that may be arcs.
+    pub(crate) fn curved(&self) -> CurvedPolygon {
+        let straight = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+        let (outer, holes) = (straight(&self.outer), self.holes.iter().map(straight).collect());
+        CurvedPolygon { outer, holes, position: self.position, rotation_deg: self.rotation_deg }
+    }
+}
+
+impl Rectangle {
+    /// The same as a ring of corners.
+    pub(crate) fn curved(&self) -> CurvedPolygon {
+        let [x, y] = self.size.map(|side| 0.5 * side);
+        let outer = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| [x, y, 0.0]).to_vec();
+        CurvedPolygon { outer, holes: Vec::new(), position: self.center, rotation_deg: self.rotation_deg }
+    }
+}
+
 fn first_seed() -> u64 {
     1
 }

@@ -7,11 +7,12 @@ use crate::math::{Bounds, Vec2};
 /// The pieces with all images that can be nearest to a point of the domain, and straight continuations outwards from ends at a side. Ends closer than
 /// `tolerance` (m) are joined.
 pub(super) fn whole(domain: Bounds, periodic: [bool; 2], pieces: &[Curve], tolerance: f64) -> Vec<Piece> {
-    let mut all: Vec<Piece> = pieces
-        .iter()
-        .flat_map(|piece| images(domain, periodic, piece))
-        .map(|curve| Piece { curve, shape: 0 })
-        .collect();
+    let image = |piece: &Curve, by: Vec2| Piece { curve: piece.shifted(by), shape: 0 };
+    let mut all = Vec::new();
+    for piece in pieces {
+        // The nearest point of a periodic surface is never farther than half a period.
+        all.extend(shifts(domain, periodic, piece.bounds(), 0.5).into_iter().map(|by| image(piece, by)));
+    }
     let next = followers(&all, tolerance);
     let mut has_before = vec![false; all.len()];
     next.iter().flatten().for_each(|&j| has_before[j] = true);
@@ -32,19 +33,19 @@ pub(super) fn whole(domain: Bounds, periodic: [bool; 2], pieces: &[Curve], toler
     all
 }
 
-/// A piece and its periodic images within half a period of the domain: the nearest point of a periodic surface is never farther.
-fn images(domain: Bounds, periodic: [bool; 2], piece: &Curve) -> Vec<Curve> {
-    let (size, bounds) = (domain.size(), piece.bounds());
-    let shifts = |axis: usize| -> Vec<f64> {
+/// The shifts by whole periods after which a box reaches into the domain grown by `reach` times its size.
+pub(super) fn shifts(domain: Bounds, periodic: [bool; 2], bounds: Bounds, reach: f64) -> Vec<Vec2> {
+    let size = domain.size();
+    let along = |axis: usize| -> Vec<f64> {
         if !periodic[axis] {
             return vec![0.0];
         }
-        let first = ((domain.min[axis] - 0.5 * size[axis] - bounds.max[axis]) / size[axis]).ceil() as i64;
-        let last = ((domain.max[axis] + 0.5 * size[axis] - bounds.min[axis]) / size[axis]).floor() as i64;
+        let first = ((domain.min[axis] - reach * size[axis] - bounds.max[axis]) / size[axis]).ceil() as i64;
+        let last = ((domain.max[axis] + reach * size[axis] - bounds.min[axis]) / size[axis]).floor() as i64;
         (first..=last).map(|k| k as f64 * size[axis]).collect()
     };
-    let rows = shifts(1);
-    shifts(0).into_iter().flat_map(|dx| rows.iter().map(move |&dy| piece.shifted(Vec2::new(dx, dy)))).collect()
+    let rows = along(1);
+    along(0).into_iter().flat_map(|dx| rows.iter().map(move |&dy| Vec2::new(dx, dy))).collect()
 }
 
 /// The outward normal of the side that contains a point; `None` within the domain and at periodic sides.

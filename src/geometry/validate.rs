@@ -186,10 +186,8 @@ impl Check {
     fn polygon(&mut self, polygon: &Polygon) {
         self.finite("position", &polygon.position);
         self.finite("rotation-deg", &[polygon.rotation_deg]);
-        let rings: Vec<Vec<[f64; 3]>> = std::iter::once(&polygon.outer)
-            .chain(&polygon.holes)
-            .map(|ring| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect())
-            .collect();
+        let curved = polygon.curved();
+        let rings: Vec<Vec<[f64; 3]>> = std::iter::once(curved.outer).chain(curved.holes).collect();
         // At least three points, so that straight edges enclose an area.
         self.rings(&rings, 3);
     }
@@ -215,8 +213,8 @@ impl Check {
         // A self-intersecting ring has both orientations, and may enclose no area.
         let crosses =
             |k: usize| faults.iter().any(|f| matches!(f, RingFault::SelfIntersection { ring, .. } if *ring == k));
-        for (k, ring) in rings.iter().enumerate().filter(|(k, _)| !crosses(*k)) {
-            self.direction(&key_of(k), ring, k == 0);
+        for k in (0..rings.len()).filter(|k| !crosses(*k)) {
+            self.direction(&key_of(k), &curves[k], k == 0);
         }
         if self.found.len() == before {
             faults.iter().for_each(|fault| self.fault(fault));
@@ -227,8 +225,8 @@ impl Check {
     }
 
     /// Checks that the outer ring runs counter-clockwise and a hole clockwise.
-    fn direction(&mut self, key: &str, points: &[[f64; 3]], is_outer: bool) {
-        let area = bulged_area(points);
+    fn direction(&mut self, key: &str, ring: &[Curve], is_outer: bool) {
+        let area: f64 = ring.iter().map(|edge| edge.area_about(ring[0].point(0.0))).sum();
         let (direction, wanted) = if area > 0.0 {
             ("counter-clockwise", "a hole runs clockwise: reverse its points")
         } else {
@@ -288,18 +286,6 @@ impl Check {
 /// The key of the outer ring and of the holes.
 fn key_of(ring: usize) -> String {
     ring.checked_sub(1).map_or_else(|| "outer".to_owned(), |hole| format!("holes[{hole}]"))
-}
-
-/// Signed area in m² of a ring of vertices with bulges, positive if counter-clockwise.
-fn bulged_area(points: &[[f64; 3]]) -> f64 {
-    let Some(&[x, y, _]) = points.first() else { return 0.0 };
-    let origin = Vec2::new(x, y);
-    let flat = ring_area(&points.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>());
-    // Each arc adds the segment of its circle between it and its chord.
-    let arcs = bulged_ring(points).filter(|edge| matches!(edge, Curve::Arc { .. }));
-    flat + arcs
-        .map(|arc| arc.area_about(origin) - 0.5 * cross(arc.point(0.0) - origin, arc.point(1.0) - origin))
-        .sum::<f64>()
 }
 
 /// Signed area of a ring in m², positive if counter-clockwise.

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::geometry::spec::{CurvedPolygon, Polygon, Rectangle, ShapeSpec};
+use crate::geometry::spec::{CurvedPolygon, Polygon, ShapeSpec};
 use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
 
@@ -62,8 +62,7 @@ pub(crate) fn weld(shapes: &[Vec<Corners>], size: f64) -> (Vec<(usize, Vec<Corne
 }
 
 fn around(points: &[Vec2]) -> Bounds {
-    let first = Bounds { min: points[0], max: points[0] };
-    points.iter().fold(first, |all, x| Bounds { min: all.min.inf(x), max: all.max.sup(x) })
+    Bounds::around(points.iter().copied()).unwrap_or(Bounds::EMPTY)
 }
 
 struct Weld {
@@ -161,18 +160,10 @@ fn corners_of(edges: &[Edge]) -> Vec<Corners> {
 
 /// The rings of a shape in the frame of the domain; none of a shape without corners.
 fn rings_of(spec: &ShapeSpec) -> Vec<Corners> {
-    let (rings, position, rotation_deg): (Vec<Corners>, _, _) = match spec {
-        ShapeSpec::Rectangle(Rectangle { center, size: [width, height], rotation_deg }) => {
-            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-            (vec![corners.map(|[x, y]| [0.5 * x * width, 0.5 * y * height, 0.0]).to_vec()], *center, *rotation_deg)
-        }
-        ShapeSpec::Polygon(Polygon { outer, holes, position, rotation_deg }) => {
-            let straight = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect();
-            (std::iter::once(outer).chain(holes).map(straight).collect(), *position, *rotation_deg)
-        }
-        ShapeSpec::CurvedPolygon(CurvedPolygon { outer, holes, position, rotation_deg }) => {
-            (std::iter::once(outer).chain(holes).cloned().collect(), *position, *rotation_deg)
-        }
+    let CurvedPolygon { outer, holes, position, rotation_deg } = match spec {
+        ShapeSpec::Rectangle(rectangle) => rectangle.curved(),
+        ShapeSpec::Polygon(polygon) => polygon.curved(),
+        ShapeSpec::CurvedPolygon(polygon) => polygon.clone(),
         _ => return Vec::new(),
     };
     let turn = nalgebra::Rotation2::new(rotation_deg.to_radians());
@@ -180,7 +171,7 @@ fn rings_of(spec: &ShapeSpec) -> Vec<Corners> {
         let p = turn * Vec2::new(x, y) + Vec2::from(position);
         [p.x, p.y, bulge]
     };
-    rings.into_iter().map(|ring| ring.into_iter().map(place).collect()).collect()
+    std::iter::once(outer).chain(holes).map(|ring| ring.into_iter().map(place).collect()).collect()
 }
 
 /// The shape with these rings.

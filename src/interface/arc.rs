@@ -191,24 +191,24 @@ fn turned(v: Vec2, angle: f64) -> Vec2 {
     cosine * v + sine * perpendicular(v)
 }
 
+/// Points in m and directions in rad along the meniscus that starts at (1, 0) in the direction `phi`, in steps of 1e-3.
+#[cfg(test)]
+pub(super) fn steps_along(phi: f64, kappa: f64, force: Vec2) -> impl Iterator<Item = (Vec2, f64)> {
+    const STEP: f64 = 1e-3;
+    std::iter::successors(Some((Vec2::x(), phi)), move |&(x, phi)| {
+        let turn = kappa + force.dot(&(x - Vec2::x()));
+        let half = phi + 0.5 * STEP * turn;
+        Some((x + STEP * Vec2::new(half.cos(), half.sin()), phi + STEP * turn))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A meniscus that starts at (1, 0) in the direction `phi` (rad), with a point at every thirtieth step.
+    /// A point at every thirtieth of two thousand steps.
     fn meniscus(phi: f64, kappa: f64, force: Vec2) -> Vec<Vec2> {
-        let (mut x, mut phi, ds) = (Vec2::x(), phi, 1e-3);
-        let mut points = vec![x];
-        for step in 1..=2000 {
-            let turn = kappa + force.dot(&(x - Vec2::x()));
-            let half = phi + 0.5 * ds * turn;
-            x += ds * Vec2::new(half.cos(), half.sin());
-            phi += ds * turn;
-            if step % 30 == 0 {
-                points.push(x);
-            }
-        }
-        points
+        steps_along(phi, kappa, force).take(2001).step_by(30).map(|(x, _)| x).collect()
     }
 
     #[test]

@@ -14,7 +14,7 @@ use super::arc::Arc;
 use super::circle;
 use super::polyline::Polyline;
 use super::wall::{WallPoint, face_beside, is_edge_between};
-use crate::math::Vec2;
+use crate::math::{Vec2, halved};
 
 /// Settings of the fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -297,11 +297,8 @@ fn meet(arc: &Arc, from: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoi
             return (nearest.0 < MISSED * exclusion).then(|| at(nearest.1));
         }
     }
-    for _ in 0..60 {
-        let middle = 0.5 * (before + arc_length);
-        if distance(middle) > 0.0 { before = middle } else { arc_length = middle }
-    }
-    Some(at(0.5 * (before + arc_length)))
+    let [before, beyond] = halved([before, arc_length], 60, |middle| distance(middle) > 0.0);
+    Some(at(0.5 * (before + beyond)))
 }
 
 /// Statistics of the angles of several contact lines.

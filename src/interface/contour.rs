@@ -7,7 +7,7 @@
 
 use super::lattice::Lattice;
 use super::polyline::Polyline;
-use crate::math::{Vec2, nearest_image};
+use crate::math::{Vec2, halved, nearest_image};
 
 /// An edge of the grid from node (i, j) to the next node along `axis`.
 #[derive(Debug, Clone, Copy)]
@@ -147,12 +147,8 @@ fn cubic_root(values: [f64; 4]) -> f64 {
             - b * (t + 1.0) * t * (t - 2.0) / 2.0
             + after * (t + 1.0) * t * (t - 1.0) / 6.0
     };
-    let (mut low, mut high) = (0.0, 1.0);
     // Bisection keeps the vertex on its edge whatever the cubic does; 40 halvings are far below the rounding of the field.
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if (cubic(middle) >= 0.0) == (a >= 0.0) { low = middle } else { high = middle }
-    }
+    let [low, high] = halved([0.0, 1.0], 40, |t| (cubic(t) >= 0.0) == (a >= 0.0));
     0.5 * (low + high)
 }
 

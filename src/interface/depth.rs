@@ -6,6 +6,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::math::halved;
+
 /// A uniform depth with the contact angles of walls, floor and lid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Depth {
@@ -155,18 +157,16 @@ pub fn duct_factor(ratio: f64) -> f64 {
 /// series: 1 - tanh z/z = F with z² = 3 x²/α. It varies from 1 for a deep duct to 1.19 for a wide one, where a parabolic profile gives 6/5.
 pub fn profile_factor(ratio: f64) -> f64 {
     /// A double has a 53-bit significand.
-    const HALVINGS: usize = 53;
+    const HALVINGS: u32 = 53;
     /// Outside this range the difference between both flows is rounding.
     const RATIOS: [f64; 2] = [1e-3, 1e3];
     let ratio = ratio.clamp(RATIOS[0], RATIOS[1]);
     let exact = duct_factor(ratio);
-    let (mut low, mut high) = (1.0, 1.5);
-    for _ in 0..HALVINGS {
-        let middle: f64 = 0.5 * (low + high);
-        let z = ratio * (3.0 / middle).sqrt();
-        if 1.0 - z.tanh() / z > exact { low = middle } else { high = middle }
-    }
-    low
+    let is_below = |alpha: f64| {
+        let z = ratio * (3.0 / alpha).sqrt();
+        1.0 - z.tanh() / z > exact
+    };
+    halved([1.0, 1.5], HALVINGS, is_below)[0]
 }
 
 #[cfg(test)]

@@ -112,6 +112,8 @@ fn follow(points: &[Vec2], side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoint, 
 
 #[cfg(test)]
 mod tests {
+    use super::super::arc::steps_along;
+    use super::super::wall::floor;
     use super::*;
     use nalgebra::Rotation2;
 
@@ -123,28 +125,18 @@ mod tests {
         accuracy: 0.0,
     };
 
-    fn floor(x: Vec2) -> WallPoint {
-        WallPoint { distance: x.y, normal: Vec2::y() }
-    }
-
     /// A meniscus that leaves the floor at (1, 0) at the angle of a drop to its left and continues until it returns; every thirtieth step gives a point, as
     /// far apart as those of a grid.
     fn meniscus(degrees: f64, kappa: f64, force: Vec2) -> (Polyline, f64) {
-        let (mut x, mut phi) = (Vec2::x(), std::f64::consts::PI - degrees.to_radians());
-        let (mut points, ds) = (vec![x], 1e-3);
-        for step in 1.. {
-            let turn = kappa + force.dot(&(x - Vec2::x()));
-            let half = phi + 0.5 * ds * turn;
-            x += ds * Vec2::new(half.cos(), half.sin());
-            phi += ds * turn;
-            if x.y < 0.0 {
-                break;
-            }
-            if step % 30 == 0 {
-                points.push(x);
-            }
-        }
-        points.push(x);
+        let mut steps = steps_along(std::f64::consts::PI - degrees.to_radians(), kappa, force).enumerate();
+        let mut points = Vec::new();
+        let (end, phi) = steps
+            .find_map(|(step, (x, phi))| {
+                points.extend((step % 30 == 0 && x.y >= 0.0).then_some(x));
+                (x.y < 0.0).then_some((x, phi))
+            })
+            .unwrap();
+        points.push(end);
         (Polyline { points, closed: false }, phi.to_degrees() - 180.0)
     }
 

@@ -3,28 +3,9 @@
 use super::circle;
 use crate::math::{LINE_MOMENT, Vec2, perpendicular};
 
-/// An ordered line of points, the high side of the field on its left.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Polyline {
-    /// Vertices in m; the first one is not repeated at the end of a closed line.
-    pub points: Vec<Vec2>,
-    /// Whether the last vertex is connected to the first one.
-    pub closed: bool,
-}
+pub use crate::math::Polyline;
 
 impl Polyline {
-    /// Length in m.
-    pub(crate) fn length(&self) -> f64 {
-        self.segments().map(|(a, b)| (b - a).norm()).sum()
-    }
-
-    /// The segments between vertices, including the closing one of a closed line.
-    pub(crate) fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-        let count = self.points.len();
-        let segments = if self.closed && count > 1 { count } else { count.saturating_sub(1) };
-        (0..segments).map(move |i| (self.points[i], self.points[(i + 1) % count]))
-    }
-
     /// Area in m² on the left of a closed line: positive if it runs counter-clockwise.
     pub(crate) fn signed_area(&self) -> f64 {
         let from = self.points.first().copied().unwrap_or_else(Vec2::zeros);

@@ -70,13 +70,15 @@ fn clip_line(line: &Polyline, wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline>
     pieces.into_iter().map(|points| Polyline { points, closed: false }).collect()
 }
 
+/// A floor at y = 0.
+#[cfg(test)]
+pub(super) fn floor(x: Vec2) -> WallPoint {
+    WallPoint { distance: x.y, normal: Vec2::y() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn floor(x: Vec2) -> WallPoint {
-        WallPoint { distance: x.y, normal: Vec2::y() }
-    }
 
     fn circle(height: f64, first: f64) -> Polyline {
         let at = |i: i32| first + std::f64::consts::PI * f64::from(i) / 50.0;

@@ -33,7 +33,6 @@ pub(crate) struct WeightedPoint {
     pub(crate) index: usize,
     /// Its position in m, relative to the origin of the fit.
     pub(crate) x: Vec2,
-    /// Its weight.
     pub(crate) weight: f64,
 }
 

@@ -86,7 +86,6 @@ pub struct NotSolved {
 pub struct BackwardEuler {
     /// Heights at the nodes.
     pub height: Vec<f64>,
-    /// Time.
     pub time: f64,
     /// The step to try next.
     pub next: f64,

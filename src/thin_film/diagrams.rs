@@ -155,7 +155,7 @@ fn rest(observed: &ObservedFilm) -> Option<Diagram> {
 fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
     let surroundings = &observed.surroundings;
     let rest = surroundings.rest.filter(|_| surroundings.cap_sides.is_none())?;
-    let (CoxVoinov { factor, length, .. }, points) = observed.history.cox_voinov_points(rest)?;
+    let (CoxVoinov { factor, length, .. }, points) = observed.history.cox_voinov(rest)?;
     let across = |[speed, position, _]: &[f64; 3]| COX_VOINOV * speed * (position / length).ln();
     let mut law: Vec<f64> = points.iter().map(across).collect();
     law.sort_by(f64::total_cmp);

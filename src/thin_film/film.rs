@@ -1,6 +1,5 @@
 //! A common interface to the two methods for the solver and the output. Scaled.
 
-use super::droplet::PointMasses;
 use super::grid_film::GridFilm;
 use super::ode::{Integrator, Rates};
 use super::particles::{ParticleMethod, WIDEST_GAP, widest_gap};
@@ -13,7 +12,6 @@ pub(crate) enum Film {
     Particles {
         /// The equation.
         method: Box<ParticleMethod>,
-        /// The state.
         state: Integrator,
     },
     /// Nodes of a grid.
@@ -47,12 +45,6 @@ pub(crate) struct FilmFields {
 }
 
 impl Film {
-    /// Particles at time zero.
-    pub(crate) fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
-        debug_assert_eq!(masses.x.len(), state.x.len());
-        Self::Particles { method: Box::new(method), state }
-    }
-
     /// Scaled time.
     pub(crate) fn time(&self) -> f64 {
         match self {
@@ -68,7 +60,7 @@ impl Film {
     pub(crate) fn step(&mut self, until: f64) -> Result<f64, FailedStep> {
         match self {
             Self::Particles { method, state } => {
-                if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel().alpha() {
+                if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel.alpha {
                     method.keep_lattice_energy();
                 }
                 state.step(method.as_mut(), until).map_err(|error| FailedStep::Inaccurate(error.0))
@@ -87,7 +79,7 @@ impl Film {
                 let mut method = method.clone();
                 let mut velocity = vec![0.0; state.x.len()];
                 method.rates(&state.x, &mut velocity);
-                let mass = method.weight().to_vec();
+                let mass = method.weight.clone();
                 let smoothed = method.smooth(&state.x);
                 let (height, curvature) = (smoothed.height.clone(), smoothed.curvature.clone());
                 FilmFields { x: state.x.clone(), height, curvature, velocity, mass }
@@ -163,7 +155,6 @@ impl Film {
         }
     }
 
-    /// Energy.
     pub(crate) fn energy(&self) -> f64 {
         match self {
             Self::Particles { method, state } => method.clone().energy(&state.x),
@@ -171,10 +162,9 @@ impl Film {
         }
     }
 
-    /// Mass.
     pub(crate) fn mass(&self) -> f64 {
         match self {
-            Self::Particles { method, .. } => method.area(),
+            Self::Particles { method, .. } => method.area,
             Self::Grid(grid) => grid.mass(),
         }
     }

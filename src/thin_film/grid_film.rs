@@ -1,45 +1,27 @@
 //! A film on a grid: its equation, its state and quantities derived from both.
 
+use std::sync::Arc;
+
 use super::backward_euler::{BackwardEuler, NotSolved, StepRule};
-use super::cells::Cells;
 use super::grid::Grid;
-use super::ring::Ring;
-
-/// The equations.
-#[derive(Debug, Clone)]
-pub enum Equation {
-    /// The geometric equation on a periodic line, with the differences of the paper.
-    Ring(Ring),
-    /// Any equation in cells between walls, plane or axisymmetric.
-    Cells(Cells),
-}
-
-impl Equation {
-    fn grid(&self) -> &dyn Grid {
-        match self {
-            Self::Ring(ring) => ring,
-            Self::Cells(cells) => cells,
-        }
-    }
-}
 
 /// A film on a grid.
 #[derive(Debug, Clone)]
 pub struct GridFilm {
-    equation: Equation,
+    equation: Arc<dyn Grid>,
     /// Heights, time and counts.
     pub state: BackwardEuler,
 }
 
 impl GridFilm {
     /// A film at time zero.
-    pub fn new(equation: Equation, height: Vec<f64>, rule: StepRule) -> Self {
-        Self { equation, state: BackwardEuler::new(height, rule) }
+    pub fn new(equation: impl Grid + 'static, height: Vec<f64>, rule: StepRule) -> Self {
+        Self { equation: Arc::new(equation), state: BackwardEuler::new(height, rule) }
     }
 
     /// Its equation.
     pub fn grid(&self) -> &dyn Grid {
-        self.equation.grid()
+        self.equation.as_ref()
     }
 
     /// Does one step that ends at `until` or before. Returns its length.
@@ -47,12 +29,12 @@ impl GridFilm {
     /// # Errors
     /// [`NotSolved`]; the state is kept.
     pub fn step(&mut self, until: f64) -> Result<f64, NotSolved> {
-        self.state.step(self.equation.grid(), until)
+        self.state.step(self.equation.as_ref(), until)
     }
 
     /// Runs to `until`.
     pub fn run(&mut self, until: f64) -> Result<(), NotSolved> {
-        self.state.run(self.equation.grid(), until)
+        self.state.run(self.equation.as_ref(), until)
     }
 
     /// Mass: Σ heights × sizes, conserved by the steps.
@@ -60,7 +42,6 @@ impl GridFilm {
         self.grid().sizes().iter().zip(&self.state.height).map(|(size, v)| size * v).sum()
     }
 
-    /// Energy.
     pub(crate) fn energy(&self) -> f64 {
         self.grid().energy(&self.state.height)
     }

@@ -25,15 +25,15 @@ pub struct ParticleSystem {
 impl ParticleMethod {
     /// The entries of the extended matrix by row and column, always with the same pattern in the same order; for the last sums, those at `x`.
     fn entries(&self, x: &[f64], shift: f64, mut entry: impl FnMut(usize, usize, f64)) {
-        let alpha = self.kernel().alpha();
-        let pull = self.xi_squared() - self.pull().bond;
+        let alpha = self.kernel.alpha;
+        let pull = self.xi_squared() - self.pull.bond;
         let [first, second, fourth] = [Order::First, Order::Second, Order::Fourth].map(|order| self.form(order));
-        let own_second = self.kernel().at(Order::Second, 0.0);
-        let own_fourth = self.kernel().at(Order::Fourth, 0.0);
+        let own_second = self.kernel.at(Order::Second, 0.0);
+        let own_fourth = self.kernel.at(Order::Fourth, 0.0);
         let fourths = self.fourths(x);
         for i in 0..x.len() {
             let s = &self.smoothed;
-            let (height, slope, weight) = (s.height[i], s.slope[i], self.weight()[i]);
+            let (height, slope, weight) = (s.height[i], s.slope[i], self.weight[i]);
             let square = height * height;
             let drive = self.drive(i, pull);
             // A particle's own term moves with it: the diagonal omits it.
@@ -56,9 +56,9 @@ impl ParticleMethod {
             let mut neighbor = |part: usize, j: usize, gap: f64| {
                 let decay = (-gap / alpha).exp();
                 let other = BLOCK * j;
-                entry(at + part, other, -decay * self.weight()[j]);
+                entry(at + part, other, -decay * self.weight[j]);
                 entry(at + part, other + part, -decay);
-                entry(at + part + 1, other, -decay * gap * self.weight()[j]);
+                entry(at + part + 1, other, -decay * gap * self.weight[j]);
                 entry(at + part + 1, other + part, -decay * gap);
                 entry(at + part + 1, other + part + 1, -decay);
             };
@@ -73,8 +73,8 @@ impl ParticleMethod {
 
     /// c₀ and c₁ of a derivative (c₀ + c₁ d) e^(−d/α) of the kernel.
     fn form(&self, order: Order) -> (f64, f64) {
-        let alpha = self.kernel().alpha();
-        let at = |d: f64| self.kernel().at(order, d) * (d / alpha).exp();
+        let alpha = self.kernel.alpha;
+        let at = |d: f64| self.kernel.at(order, d) * (d / alpha).exp();
         // Two values determine the two coefficients; 0 itself is special for the odd derivatives.
         let (near, far) = (at(alpha), at(2.0 * alpha));
         (2.0 * near - far, (far - near) / alpha)
@@ -82,7 +82,7 @@ impl ParticleMethod {
 
     /// Σⱼ wⱼ Φ''''(xᵢ − xⱼ), including each particle's own term.
     fn fourths(&self, x: &[f64]) -> Vec<f64> {
-        let alpha = self.kernel().alpha();
+        let alpha = self.kernel.alpha;
         let decay = |gap: f64| (-gap / alpha).exp();
         let mut total = vec![0.0; x.len()];
         let scale = 0.25 / alpha.powi(6);
@@ -90,15 +90,15 @@ impl ParticleMethod {
         for i in 0..x.len() {
             if i > 0 {
                 let gap = x[i] - x[i - 1];
-                side = side.with(self.weight()[i - 1]).moved(gap, decay(gap));
+                side = side.with(self.weight[i - 1]).moved(gap, decay(gap));
             }
-            total[i] = scale * (side.weighted - 3.0 * alpha * (side.plain + self.weight()[i]));
+            total[i] = scale * (side.weighted - 3.0 * alpha * (side.plain + self.weight[i]));
         }
         let mut side = OneSided::default();
         for i in (0..x.len()).rev() {
             if i + 1 < x.len() {
                 let gap = x[i + 1] - x[i];
-                side = side.with(self.weight()[i + 1]).moved(gap, decay(gap));
+                side = side.with(self.weight[i + 1]).moved(gap, decay(gap));
             }
             total[i] += scale * (side.weighted - 3.0 * alpha * side.plain);
         }
@@ -126,7 +126,7 @@ impl Implicit for ParticleMethod {
             let overlap = self.overlap();
             for (i, (height, slope)) in self.smoothed.height.iter().zip(&self.smoothed.slope).enumerate() {
                 column[BLOCK * i] = height * height * slope;
-                row[BLOCK * i] = 4.0 * xi_squared * self.weight()[i] * slope / overlap;
+                row[BLOCK * i] = 4.0 * xi_squared * self.weight[i] * slope / overlap;
             }
             factors = factors.with_rank_one(column, row)?;
         }

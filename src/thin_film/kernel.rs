@@ -30,18 +30,14 @@ struct Term {
 /// The smoothing kernel Φ on the infinite line [Pang2022, Eq. 41].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kernel {
-    alpha: f64,
+    /// Filter length α.
+    pub alpha: f64,
 }
 
 impl Kernel {
     /// The kernel of filter length `alpha`, above 0, in the unit of x.
     pub fn new(alpha: f64) -> Self {
         Self { alpha }
-    }
-
-    /// Filter length α.
-    pub fn alpha(&self) -> f64 {
-        self.alpha
     }
 
     fn term(&self, order: Order) -> Term {
@@ -81,27 +77,25 @@ impl Kernel {
     }
 }
 
+/// Simpson's rule with `n` (even) cells.
+#[cfg(test)]
+pub(super) fn simpson(n: usize, from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let h = (to - from) / n as f64;
+    let weight = |i: usize| match i {
+        0 => 1.0,
+        _ if i == n => 1.0,
+        _ if i % 2 == 1 => 4.0,
+        _ => 2.0,
+    };
+    (0..=n).map(|i| weight(i) * f(from + i as f64 * h)).sum::<f64>() * h / 3.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const ORDERS: [Order; 5] = [Order::Value, Order::First, Order::Second, Order::Third, Order::Fourth];
     const ALPHA: f64 = 0.05;
-
-    /// Simpson's rule with `n` (even) cells.
-    fn simpson(n: usize, from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
-        let h = (to - from) / n as f64;
-        let weight = |i: usize| {
-            if i == 0 || i == n {
-                1.0
-            } else if i % 2 == 1 {
-                4.0
-            } else {
-                2.0
-            }
-        };
-        (0..=n).map(|i| weight(i) * f(from + i as f64 * h)).sum::<f64>() * h / 3.0
-    }
 
     /// [Pang2022, Eq. 41]
     #[test]

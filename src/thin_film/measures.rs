@@ -73,7 +73,7 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
     let scales = surroundings.scales;
     let mut found = Vec::new();
     if surroundings.cap_sides.is_none()
-        && let Some(law) = surroundings.rest.and_then(|rest| observed.history.cox_voinov(rest))
+        && let Some((law, _)) = surroundings.rest.and_then(|rest| observed.history.cox_voinov(rest))
     {
         let [from, to] = [WINDOW.0, WINDOW.1].map(|time| time * scales.time);
         let method = |what: &str| {

@@ -19,7 +19,6 @@ const FOLLOWED: usize = 12;
 /// Constant properties of the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Surroundings {
-    /// Scales.
     pub(crate) scales: Scales,
     /// Left and right end of the wall in m.
     pub(crate) wall: [f64; 2],
@@ -46,7 +45,6 @@ pub(crate) struct Surroundings {
 /// A film, scaled, and its history.
 #[derive(Debug, Clone)]
 pub(crate) struct ObservedFilm {
-    /// The film.
     pub(crate) film: Film,
     /// Its constant properties.
     pub(crate) surroundings: Surroundings,

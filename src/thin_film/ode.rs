@@ -50,11 +50,8 @@ pub struct Work {
 /// State of a time integration.
 #[derive(Debug, Clone)]
 pub struct Integrator {
-    /// Method.
     pub(crate) method: FilmIntegrator,
-    /// Tolerance.
     pub tolerance: Tolerance,
-    /// Time.
     pub time: f64,
     /// State.
     pub x: Vec<f64>,

@@ -27,10 +27,14 @@ pub struct Pull {
 /// The particles except for their positions, with all parameters of their motion.
 #[derive(Debug, Clone)]
 pub struct ParticleMethod {
-    kernel: Kernel,
-    weight: Vec<f64>,
-    pull: Pull,
-    area: f64,
+    /// The kernel that smooths the film.
+    pub kernel: Kernel,
+    /// The mass of each particle.
+    pub weight: Vec<f64>,
+    /// Driving forces besides surface tension.
+    pub pull: Pull,
+    /// Total mass A.
+    pub area: f64,
     correction: Vec<f64>,
     sums: FastSums,
     sums_directly: bool,
@@ -78,27 +82,7 @@ impl ParticleMethod {
     /// The slope of the spurious contact angle due to the lattice energy, w/(√12 α²) with the largest weight.
     pub(crate) fn lattice_slope(&self) -> f64 {
         let largest = self.weight.iter().copied().fold(0.0, f64::max);
-        largest / (12.0_f64.sqrt() * self.kernel.alpha().powi(2))
-    }
-
-    /// The weights.
-    pub fn weight(&self) -> &[f64] {
-        &self.weight
-    }
-
-    /// Total mass A.
-    pub fn area(&self) -> f64 {
-        self.area
-    }
-
-    /// Driving forces besides surface tension.
-    pub fn pull(&self) -> Pull {
-        self.pull
-    }
-
-    /// The kernel.
-    pub fn kernel(&self) -> Kernel {
-        self.kernel
+        largest / (12.0_f64.sqrt() * self.kernel.alpha.powi(2))
     }
 
     /// h̄ and its derivatives at the particles.
@@ -143,7 +127,7 @@ impl ParticleMethod {
 /// cₖ of each particle; the weight beyond the ends is zero.
 fn lattice_correction(kernel: &Kernel, weight: &[f64]) -> Vec<f64> {
     let at = |i: Option<usize>| i.and_then(|i| weight.get(i)).copied().unwrap_or(0.0);
-    let scale = 48.0 * kernel.alpha().powi(4);
+    let scale = 48.0 * kernel.alpha.powi(4);
     let term = |i: usize| (at(i.checked_sub(1)).powi(2) - at(Some(i + 1)).powi(2)) / (scale * weight[i]);
     (0..weight.len()).map(term).collect()
 }

@@ -1,5 +1,7 @@
 //! Quantities derived from a profile h̄(x): the contact line by the tangent construction, heights, distances between profiles.
 
+use crate::analysis::convergence::slope;
+
 /// A maximum below this fraction of the highest does not count as a droplet.
 const PEAK: f64 = 0.05;
 
@@ -67,12 +69,7 @@ impl Profile {
 pub fn exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
     let logs: Vec<(f64, f64)> =
         points.into_iter().filter(|(t, y)| *t > 0.0 && *y > 0.0).map(|(t, y)| (t.ln(), y.ln())).collect();
-    let count = logs.len() as f64;
-    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / count;
-    let (t, y) = (mean(|p| p.0), mean(|p| p.1));
-    let spread: f64 = logs.iter().map(|p| (p.0 - t).powi(2)).sum();
-    let shared: f64 = logs.iter().map(|p| (p.0 - t) * (p.1 - y)).sum();
-    (spread > 0.0).then(|| shared / spread)
+    slope(&logs)
 }
 
 #[cfg(test)]
@@ -92,12 +89,5 @@ mod tests {
         let line = profile.contact_line(0.0).unwrap();
         assert!((line.position - std::f64::consts::FRAC_PI_2 - 1.0).abs() < 1.0e-7, "{line:?}");
         assert!((line.slope - 1.0).abs() < 1.0e-8);
-    }
-
-    #[test]
-    fn a_power_law_has_its_exponent() {
-        let law = (1..20).map(|i| (f64::from(i), 3.0 * f64::from(i).powf(1.0 / 7.0)));
-        assert!((exponent(law).unwrap() - 1.0 / 7.0).abs() < 1.0e-12);
-        assert_eq!(exponent([(1.0, 2.0)]), None);
     }
 }

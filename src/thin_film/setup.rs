@@ -5,7 +5,7 @@ use super::cells::{Cells, Layout, Model};
 use super::droplet::{Droplet, particles};
 use super::equilibrium::Equilibrium;
 use super::film::Film;
-use super::grid_film::{Equation, GridFilm};
+use super::grid_film::GridFilm;
 use super::kernel::Kernel;
 use super::observed::Surroundings;
 use super::ode::{Integrator, Tolerance};
@@ -62,31 +62,25 @@ pub(crate) fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, Setu
     let wall = [case.geometry.min[0], case.geometry.max[0]];
     let (wetting, equilibrium) = rest(film, &scales, &droplets)?;
     let pull = Pull { wetting, bond: scales.bond };
+    let resolution = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
     let moving = match film.method {
         FilmMethod::Particles(FilmParticles { integrator, tolerance, lattice_energy, sums }) => {
-            let alpha = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
             let masses = particles(&droplets, film.spacing / scales.length, film.weights);
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
             let state = Integrator::new(integrator, tolerance, masses.x.clone(), FIRST_STEP);
-            let mut equation = ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice_energy);
+            let mut equation = ParticleMethod::new(Kernel::new(resolution), &masses, pull, lattice_energy);
             if sums == FilmSums::Direct {
                 equation.sum_directly();
             }
-            Film::particles(equation, &masses, state)
+            Film::Particles { method: Box::new(equation), state }
         }
         FilmMethod::FiniteDifferences(FilmGrid { step_share }) => {
             let rule = StepRule { first: first_step(film, &scales), share: step_share, ..StepRule::ADAPTIVE };
-            let (equation, height) = grid(film, &scales, &droplets, wall, pull)?;
-            Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
+            Film::Grid(Box::new(grid(film, &scales, &droplets, wall, pull, rule)?))
         }
     };
-    let resolution = match film.equation {
-        FilmEquation::Geometric(Geometric { smoothing_length }) => smoothing_length,
-        FilmEquation::Slip(_) | FilmEquation::Precursor(_) => film.spacing,
-    };
     let right = droplets.last().map_or(0.0, |droplet| droplet.center);
-    let resolution = resolution / scales.length;
     let surroundings = Surroundings {
         scales,
         wall,
@@ -150,14 +144,15 @@ fn rest(film: &ThinFilm, scales: &Scales, droplets: &[Droplet]) -> Result<(f64, 
     Ok((wetting, alone.flatten()))
 }
 
-/// The equation on its grid, with the heights at time zero.
+/// The film on its grid at time zero.
 fn grid(
     film: &ThinFilm,
     scales: &Scales,
     droplets: &[Droplet],
     wall: [f64; 2],
     pull: Pull,
-) -> Result<(Equation, Vec<f64>), TooLarge> {
+    rule: StepRule,
+) -> Result<GridFilm, TooLarge> {
     let spacing = film.spacing / scales.length;
     let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
     let model = match (film.equation, film.symmetry) {
@@ -168,7 +163,7 @@ fn grid(
             let Pull { wetting, bond } = pull;
             let line = Line { from: -before * spacing, count, spacing, alpha, wetting, bond };
             let (ring, height) = Ring::new(line, droplets, film.weights)?;
-            return Ok((Equation::Ring(ring), height));
+            return Ok(GridFilm::new(ring, height, rule));
         }
         (FilmEquation::Geometric(Geometric { smoothing_length }), FilmSymmetry::Axis) => {
             Model::Geometric { alpha: smoothing_length / scales.length }
@@ -185,5 +180,5 @@ fn grid(
     let layout =
         Layout { from: wall[0] / scales.length, count, spacing, symmetry: film.symmetry, model, bond: scales.bond };
     let (cells, height) = Cells::new(layout, droplets, film.weights)?;
-    Ok((Equation::Cells(cells), height))
+    Ok(GridFilm::new(cells, height, rule))
 }

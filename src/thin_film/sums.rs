@@ -59,7 +59,7 @@ struct Factors {
 
 impl Factors {
     fn new(kernel: &Kernel) -> Self {
-        let alpha = kernel.alpha();
+        let alpha = kernel.alpha;
         Self { alpha, height: 0.25 / alpha.powi(2), slope: 0.25 / alpha.powi(3), curvature: 0.25 / alpha.powi(4) }
     }
 }
@@ -80,7 +80,7 @@ impl FastSums {
     /// h̄ and its derivatives at the particles. `x` is ascending; `x`, `weight` and the fields of `out` have the same length.
     pub fn at_particles(&mut self, x: &[f64], weight: &[f64], out: &mut Smoothed) {
         let count = x.len();
-        let rate = -1.0 / self.kernel.alpha();
+        let rate = -1.0 / self.kernel.alpha;
         self.decay.clear();
         self.decay.extend(x.windows(2).map(|pair| (rate * (pair[1] - pair[0])).exp()));
         // The left sums are stored in the fields to which they contribute.
@@ -110,7 +110,7 @@ impl FastSums {
 
     /// h̄, h̄ₓ and h̄ₓₓ at other ascending positions; the third derivative, which jumps at particles, is left at zero.
     pub(crate) fn at_positions(&self, x: &[f64], weight: &[f64], positions: &[f64]) -> Smoothed {
-        let rate = -1.0 / self.kernel.alpha();
+        let rate = -1.0 / self.kernel.alpha;
         let factors = Factors::new(&self.kernel);
         let moved = |sums: OneSided, gap: f64| sums.moved(gap, (rate * gap).exp());
         let mut out = Smoothed::new(positions.len());
@@ -178,6 +178,7 @@ mod tests {
     /// [Pang2022, Sect. 3]
     #[test]
     fn the_recursion_agrees_with_the_direct_sums() {
+        // The last line is ten thousand filter lengths long: nothing overflows.
         for (count, half, alpha) in
             [(1, 1.0, 0.1), (2, 1.0, 0.1), (200, 2.0, 0.05), (800, 2.0, 0.05), (2000, 2.0, 0.005), (1500, 50.0, 0.01)]
         {
@@ -193,14 +194,6 @@ mod tests {
                 assert!(difference(&fast.third, &slow.third) < 1.0e-12);
             }
         }
-    }
-
-    #[test]
-    fn a_line_that_is_ten_thousand_filter_lengths_long_does_not_overflow() {
-        let (x, weight) = particles(5000, 500.0);
-        let mut fast = Smoothed::new(x.len());
-        FastSums::new(Kernel::new(0.1)).at_particles(&x, &weight, &mut fast);
-        assert!(fast.height.iter().chain(&fast.third).all(|v| v.is_finite()));
     }
 
     #[test]

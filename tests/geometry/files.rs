@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use meniscus::geometry::import::Options;
+use meniscus::geometry::import::{Options, Refused};
 use meniscus::geometry::spec::{Capsule, Channel, GeometrySpec, ShapeSpec, SolidSide, ThroatCosine, ThroatDiscs};
 use meniscus::geometry::{Geometry, ShapeFileError};
 use meniscus::math::Vec2;
@@ -55,14 +55,14 @@ fn narrowest_throats_of_the_shipped_geometries_are_as_their_comments_say() {
 #[test]
 fn bad_shape_files_are_refused_with_all_their_lines() {
     let load = |path: &Path| meniscus::geometry::load(path, &Options::default());
-    let Err(ShapeFileError::Parts { refusals, .. }) = load(&repository("tests/shapes/bad.xyr")) else {
-        panic!("accepted")
+    let refused = |name: &str| match load(&repository(name)) {
+        Err(ShapeFileError::Refused { refused, .. }) => refused,
+        other => panic!("{other:?}"),
     };
+    let Refused::Parts(refusals) = refused("tests/shapes/bad.xyr") else { panic!("other mistakes") };
     let places: Vec<_> = refusals.iter().map(|refusal| refusal.location.as_str()).collect();
     assert_eq!(places, ["line 4", "line 5", "line 6", "line 7"]);
-    let Err(ShapeFileError::Shapes { problems, .. }) = load(&repository("tests/shapes/overlapping-rings.wkt")) else {
-        panic!("accepted")
-    };
+    let Refused::Shapes(problems) = refused("tests/shapes/overlapping-rings.wkt") else { panic!("other mistakes") };
     assert!(problems[0].path.starts_with("line "), "{}", problems[0]);
     let missing = load(Path::new("no-such-file.wkt")).unwrap_err().to_string();
     assert!(missing.contains(&std::env::current_dir().unwrap().display().to_string()), "{missing}");

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use meniscus::geometry::import::drawing::Refusal;
-use meniscus::geometry::import::{Imported, Options};
+use meniscus::geometry::import::{Imported, Options, Refused};
 use meniscus::geometry::spec::{ShapeSpec, SolidSide};
 use meniscus::geometry::{Geometry, ShapeFileError, load};
 use meniscus::math::Vec2;
@@ -155,9 +155,8 @@ fn rings_of_a_shapefile_that_cross_are_refused_with_their_record_and_those_that_
 fn a_unit_is_asked_for_where_the_file_has_none_and_the_projection_gives_one() {
     let rings = [vec![[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [0.0, 0.0]]];
     for (name, content) in [("a.geojson", geojson(&rings).into_bytes()), ("a.shp", shp(&[rings.to_vec()]))] {
-        let ShapeFileError::Keys { problems, .. } = refused(name, content, &Options::default()) else {
-            panic!("{name}")
-        };
+        let found = refused(name, content, &Options::default());
+        let ShapeFileError::Refused { refused: Refused::Keys(problems), .. } = found else { panic!("{name}: {found}") };
         assert!(problems[0].path == "unit" && problems[0].help.contains("scale"), "{}", problems[0]);
     }
     let shape = file("a.shp", shp(&[rings.to_vec()]));
@@ -260,7 +259,7 @@ fn what_cannot_be_read_is_refused_with_place_and_way_out() {
         assert!(found.contains(message), "{name}: {found}");
     }
     let found = refused("a.csv", b"0,0,1\n\xff\xfe", &m);
-    let ShapeFileError::Parts { refusals, .. } = found else { panic!("{found}") };
+    let ShapeFileError::Refused { refused: Refused::Parts(refusals), .. } = found else { panic!("{found}") };
     assert_eq!(refusals[0].location, "line 2, byte 7");
     let _: &Refusal = &refusals[0];
 }

@@ -5,8 +5,9 @@ use std::io::Cursor;
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use meniscus::geometry::curve::Curve;
+use meniscus::geometry::import::Options;
 use meniscus::geometry::import::drawing::{Drawing, Outline, Ring};
-use meniscus::geometry::import::mask::{MaskOptions, read};
+use meniscus::geometry::import::mask::read;
 use meniscus::math::Vec2;
 use tiff::encoder::{TiffEncoder, colortype};
 
@@ -34,7 +35,7 @@ fn png(image: &DynamicImage) -> Vec<u8> {
 }
 
 fn read_gray(image: &GrayImage) -> Drawing {
-    read(&png(&DynamicImage::ImageLuma8(image.clone())), &MaskOptions::default()).unwrap()
+    read(&png(&DynamicImage::ImageLuma8(image.clone())), &Options::default()).unwrap()
 }
 
 fn curves(ring: &Ring) -> Vec<Curve> {
@@ -194,8 +195,7 @@ fn holes_belong_to_their_grain_and_islands_stand_alone() {
 fn white_and_black_change_places_and_a_note_tells_the_share() {
     let image = drawn([40; 2], 1, |x| (x - Vec2::repeat(20.0)).norm() < 10.0);
     let bytes = png(&DynamicImage::ImageLuma8(image.clone()));
-    let drawing =
-        read(&bytes, &MaskOptions { invert: true, pixel_size: Some(2e-6), ..MaskOptions::default() }).unwrap();
+    let drawing = read(&bytes, &Options { invert: Some(true), pixel_size: Some(2e-6), ..Options::default() }).unwrap();
     let Outline::Area { rings, .. } = &drawing.entities[0].outline else { panic!() };
     assert_eq!(rings.len(), 2, "all around the disc is solid");
     assert_eq!(drawing.unit.as_ref().map(|unit| unit.meters), Some(2e-6));
@@ -249,7 +249,7 @@ fn all_pixel_formats_give_the_same_disc() {
     let expected = read_gray(&image).entities;
     assert!(matches!(expected[0].outline, Outline::Disc { .. }));
     for (name, bytes) in files {
-        assert_eq!(read(&bytes, &MaskOptions::default()).unwrap().entities, expected, "{name}");
+        assert_eq!(read(&bytes, &Options::default()).unwrap().entities, expected, "{name}");
     }
 }
 
@@ -299,10 +299,10 @@ fn what_is_no_mask_is_refused_with_a_way_out() {
         (&plain, "all on one side of the threshold"),
         (&half[..half.len() / 2], "a complete PNG file"),
     ] {
-        let refusals = read(bytes, &MaskOptions::default()).unwrap_err();
+        let refusals = read(bytes, &Options::default()).unwrap_err();
         assert!(refusals[0].to_string().contains(wanted), "{}", refusals[0]);
     }
-    let options = MaskOptions { threshold: Some(1.5), ..MaskOptions::default() };
+    let options = Options { threshold: Some(1.5), ..Options::default() };
     assert_eq!(read(&half, &options).unwrap_err()[0].location, "threshold");
 }
 
@@ -318,7 +318,7 @@ proptest::proptest! {
         };
         let count = bytes.len();
         changes.iter().for_each(|&(at, value)| bytes[at % count] = value);
-        if let Err(refusals) = read(&bytes, &MaskOptions::default()) {
+        if let Err(refusals) = read(&bytes, &Options::default()) {
             proptest::prop_assert!(!refusals.is_empty());
         }
     }

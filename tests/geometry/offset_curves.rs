@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use meniscus::geometry::Geometry;
-use meniscus::geometry::offset_curves::{OffsetCurve, UnfittedSurface};
+use meniscus::geometry::offset_curves::UnfittedSurface;
 use meniscus::geometry::spec::{HalfPlane, ShapeSpec, SolidSide};
-use meniscus::math::Vec2;
+use meniscus::math::{Polyline, Vec2};
 
 use crate::shapes::{disc, polygon, rectangle, solid, spec, v, zoo};
 
@@ -19,13 +19,13 @@ fn within(x: Vec2) -> bool {
     x.amax() < 2.0
 }
 
-fn assert_one(curves: &[OffsetCurve], length: f64, closed: bool) {
+fn assert_one(curves: &[Polyline], length: f64, closed: bool) {
     assert_eq!(
         curves.len(),
         1,
         "{} lines of lengths {:?}",
         curves.len(),
-        curves.iter().map(OffsetCurve::length).collect::<Vec<_>>()
+        curves.iter().map(Polyline::length).collect::<Vec<_>>()
     );
     assert_eq!(curves[0].closed, closed);
     // Chords of arcs, and ends of lines that are found to a share of a step.
@@ -78,7 +78,7 @@ fn a_line_in_overlapping_discs_goes_around_both() {
     let arcs = 2.0 * (2.0 * PI - 2.0 * meet) * 0.8;
     let fans = 2.0 * (2.0 * (PI / 2.0 - meet)) * 0.2;
     let curves = all(&geometry).offset_curves(0.2, STEP, within);
-    let length: f64 = curves.iter().map(OffsetCurve::length).sum();
+    let length: f64 = curves.iter().map(Polyline::length).sum();
     assert!(curves.len() == 1 && curves[0].closed);
     assert!((length - arcs - fans).abs() < 1.0 * STEP, "{length} in place of {}", arcs + fans);
 }
@@ -114,8 +114,8 @@ fn every_point_of_every_line_has_its_depth() {
 
 #[test]
 fn points_along_a_line_are_evenly_apart() {
-    let curve = OffsetCurve { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0)], closed: false };
+    let curve = Polyline { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0)], closed: false };
     assert_eq!(curve.divided(2), [v(0.5, 0.0), v(1.0, 0.5)]);
-    let ring = OffsetCurve { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0), v(0.0, 1.0)], closed: true };
+    let ring = Polyline { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0), v(0.0, 1.0)], closed: true };
     assert_eq!(ring.divided(4), [v(0.5, 0.0), v(1.0, 0.5), v(0.5, 1.0), v(0.0, 0.5)]);
 }

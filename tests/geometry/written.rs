@@ -6,7 +6,7 @@ use meniscus::geometry::Geometry;
 use meniscus::geometry::export::{Beside, ExportError, Format, write};
 use meniscus::geometry::import::Options;
 use meniscus::geometry::import::drawing::Outline;
-use meniscus::geometry::import::mask::{MaskOptions, read};
+use meniscus::geometry::import::mask::read;
 use meniscus::geometry::load;
 use meniscus::geometry::spec::{Capsule, Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide};
 
@@ -144,7 +144,7 @@ fn a_mask_holds_the_share_of_solid_of_every_pixel() {
     let solid: f64 = image.pixels().map(|p| 1.0 - f64::from(p[0]) / 255.0).sum::<f64>() / 120_000.0;
     // 256 steps of gray in some thousand pixels along the walls.
     assert!((solid - (1.0 - porosity(&spec))).abs() < 2e-5, "{solid} {}", 1.0 - porosity(&spec));
-    let drawing = read(&bytes, &MaskOptions { pixel_size: Some(pixel), ..MaskOptions::default() }).unwrap();
+    let drawing = read(&bytes, &Options { pixel_size: Some(pixel), ..Options::default() }).unwrap();
     let radii = drawing
         .entities
         .iter()

@@ -5,7 +5,7 @@ use meniscus::thin_film::backward_euler::StepRule;
 use meniscus::thin_film::cells::{Cells, Layout, Model};
 use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::equilibrium::Equilibrium;
-use meniscus::thin_film::grid_film::{Equation, GridFilm};
+use meniscus::thin_film::grid_film::GridFilm;
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Integrator, Tolerance};
 use meniscus::thin_film::particles::{ParticleMethod, Pull};
@@ -25,7 +25,7 @@ fn half(symmetry: FilmSymmetry, model: Model, length: f64, count: usize, bond: f
 
 fn film(layout: Layout, droplet: Droplet, rule: StepRule) -> GridFilm {
     let (cells, height) = Cells::new(layout, &[droplet], FilmWeights::Cell).unwrap();
-    GridFilm::new(Equation::Cells(cells), height, rule)
+    GridFilm::new(cells, height, rule)
 }
 
 fn profile(film: &GridFilm) -> Profile {
@@ -83,10 +83,9 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
         ];
         for (model, mobility, disjoining) in models {
             let (cells, _) = Cells::new(half(symmetry, model, 1.0, count, bond), &[], FilmWeights::Cell).unwrap();
-            let grid = Equation::Cells(cells);
             let nodes: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) / count as f64).collect();
             let start = nodes.iter().map(|x| 1.0 + small * wave(k * x)).collect();
-            let mut film = GridFilm::new(grid, start, StepRule::fixed(dt));
+            let mut film = GridFilm::new(cells, start, StepRule::fixed(dt));
             film.step(dt).unwrap();
             let left = (film.state.height[0] - 1.0) / (small * wave(k * nodes[0]));
             let rate = mobility * square * (square + bond - disjoining);
@@ -144,7 +143,7 @@ fn cells_and_the_paper_s_differences_solve_the_same_equation() {
     let mut cells = film(half(FilmSymmetry::Plane, GEOMETRIC, 2.0, 400, 0.0), DROPLET, RULE);
     let line = Line { from: -2.0, count: 800, spacing: 0.005, alpha: 0.05, wetting: 0.0, bond: 0.0 };
     let (ring, height) = Ring::new(line, &[DROPLET], FilmWeights::Cell).unwrap();
-    let mut ring = GridFilm::new(Equation::Ring(ring), height, RULE);
+    let mut ring = GridFilm::new(ring, height, RULE);
     cells.run(20.0).unwrap();
     ring.run(20.0).unwrap();
     // Both have the same steps, and errors of the square of the spacing over the filter length, 0.01, with factors below 0.01.
@@ -182,7 +181,7 @@ fn a_droplet_under_gravity_rests_in_its_closed_form() {
 
     let line = Line { from: -2.5, count: 500, spacing: 0.01, alpha, wetting, bond };
     let (ring, height) = Ring::new(line, &[droplet], FilmWeights::Cell).unwrap();
-    let mut ring = GridFilm::new(Equation::Ring(ring), height, RULE);
+    let mut ring = GridFilm::new(ring, height, RULE);
     ring.run(300.0).unwrap();
     let off = profile(&ring).distance_to(|x| rest.height(x));
     // The square of the spacing over the filter length, with a factor of a thousandth.

@@ -4,7 +4,7 @@ use meniscus::case::film::{FilmIntegrator, FilmWeights, LatticeEnergy};
 use meniscus::thin_film::backward_euler::StepRule;
 use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::equilibrium::Equilibrium;
-use meniscus::thin_film::grid_film::{Equation, GridFilm};
+use meniscus::thin_film::grid_film::GridFilm;
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Integrator, Tolerance};
 use meniscus::thin_film::particles::{ParticleMethod, Pull};
@@ -53,7 +53,7 @@ impl Particles {
 fn grid(droplet: Droplet, half: f64, count: usize, wetting: f64, rule: StepRule) -> GridFilm {
     let line = Line { from: -half, count, spacing: 2.0 * half / count as f64, alpha: ALPHA, wetting, bond: 0.0 };
     let (ring, height) = Ring::new(line, &[droplet], FilmWeights::Point).unwrap();
-    GridFilm::new(Equation::Ring(ring), height, rule)
+    GridFilm::new(ring, height, rule)
 }
 
 fn near(found: f64, known: f64, tolerance: f64) {

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::geometry::boundary::divided;
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::intersect::intersections;
 use crate::math::{Bounds, perpendicular};
@@ -41,35 +42,16 @@ pub(super) fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], toleran
         }
     }
     parameters.retain(|u| u.is_finite());
-    parameters.sort_by(f64::total_cmp);
-    if curve.is_closed() {
-        match parameters.first() {
-            Some(&first) => parameters.push(first + 1.0),
-            None => parameters = vec![0.0, 1.0],
-        }
-    } else {
-        parameters.insert(0, 0.0);
-        parameters.push(1.0);
-    }
-    let shortest = tolerance / curve.length();
-    let mut parts = Vec::new();
-    let mut from = parameters[0];
-    for &to in &parameters[1..] {
-        if to - from > shortest {
-            let part = if (from, to) == (0.0, 1.0) { *curve } else { curve.part(from, to) };
-            from = to;
-            let (middle, normal) = (part.point(0.5), part.normal(0.5));
-            let keeps = (0..2).filter(|&i| cuts(i)).all(|i| {
-                let (low, high) = (middle[i] - frame.min[i], frame.max[i] - middle[i]);
-                low > -tolerance
-                    && high > -tolerance
-                    && (low > tolerance || normal[i] > 0.0)
-                    && (high > tolerance || normal[i] < 0.0)
-            });
-            if keeps {
-                parts.push(part);
-            }
-        }
-    }
-    parts
+    let part = |[from, to]: [f64; 2]| if [from, to] == [0.0, 1.0] { *curve } else { curve.part(from, to) };
+    let is_kept = |part: &Curve| {
+        let (middle, normal) = (part.point(0.5), part.normal(0.5));
+        (0..2).filter(|&i| cuts(i)).all(|i| {
+            let (low, high) = (middle[i] - frame.min[i], frame.max[i] - middle[i]);
+            low > -tolerance
+                && high > -tolerance
+                && (low > tolerance || normal[i] > 0.0)
+                && (high > tolerance || normal[i] < 0.0)
+        })
+    };
+    divided(curve, parameters, tolerance).into_iter().map(part).filter(is_kept).collect()
 }

@@ -35,7 +35,6 @@ enum End {
 pub(crate) enum Kind {
     /// A saddle of the wall distance.
     Saddle(Opposite),
-    /// A maximum.
     Maximum(Opposite),
 }
 

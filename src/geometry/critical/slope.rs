@@ -12,7 +12,6 @@ use crate::math::{Vec2, perpendicular};
 /// The wall of a level passage on one side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Along {
-    /// A piece.
     Piece(Link),
     /// A vertex, about which the passage rotates by at most this angle in rad.
     Vertex(Contact, f64),

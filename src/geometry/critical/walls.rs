@@ -62,7 +62,6 @@ pub(crate) enum Sides {
 
 /// The walls of a geometry.
 pub(crate) struct Walls {
-    /// The domain.
     pub(crate) domain: Bounds,
     /// Whether it is periodic along x and y.
     pub(crate) periodic: [bool; 2],

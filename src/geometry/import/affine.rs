@@ -12,7 +12,6 @@ pub(crate) struct Affine {
 }
 
 impl Affine {
-    /// The identity.
     pub(crate) fn identity() -> Self {
         Self { linear: Mat2::identity(), shift: Vec2::zeros() }
     }

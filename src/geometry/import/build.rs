@@ -38,14 +38,21 @@ pub struct Imported {
 }
 
 /// Why a drawing cannot be converted to shapes.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Refused {
-    /// Keys besides the file are missing or invalid.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Refused {
+    /// Keys besides the file are missing or invalid; the paths of the problems are keys, such as `unit`.
+    #[error("{}", join(.0))]
     Keys(Vec<Problem>),
-    /// Parts of the file.
+    /// Parts of the file cannot be read: all of them, in order.
+    #[error("{} mistake(s)\n{}", .0.len(), join(.0))]
     Parts(Vec<Refusal>),
-    /// The shapes are invalid; paths are source locations in the file.
+    /// Every part can be read, but the shapes are invalid; paths are source locations in the file.
+    #[error("{} problem(s)\n{}", .0.len(), join(.0))]
     Shapes(Vec<Problem>),
+}
+
+fn join<T: ToString>(items: &[T]) -> String {
+    items.iter().map(|item| format!("  {}", item.to_string())).collect::<Vec<_>>().join("\n")
 }
 
 /// A shape and its source location.
@@ -336,7 +343,7 @@ fn nested_entities(entities: Vec<Entity>, notes: &mut Notes, refusals: &mut Vec<
 fn recognized((outer, holes): Region, is_of_pixels: bool, options: &Options, counts: &mut Counts) -> ShapeSpec {
     let is_exact_circle = |ring: &Ring| ring.vertices.len() == 2;
     let find = |ring: &Ring, counts: &mut Counts| -> Option<(Vec2, f64)> {
-        if !(options.recognizes_circles() || is_exact_circle(ring)) {
+        if !(options.recognize_circles.unwrap_or(true) || is_exact_circle(ring)) {
             return None;
         }
         let found = recognize::circle(ring)?;

@@ -22,9 +22,7 @@ const NO_AREA: f64 = 1e-12;
 pub(crate) enum Closed {
     /// An exact circle.
     Circle {
-        /// Center.
         center: Vec2,
-        /// Radius.
         radius: f64,
         /// Whether the contour runs around it clockwise.
         is_clockwise: bool,
@@ -57,33 +55,15 @@ pub(crate) fn close(pieces: &[Piece], gap: f64) -> Closed {
     }
     let corners = vertices.iter().map(|vertex| Vec2::new(vertex[0], vertex[1]));
     let size = Bounds::around(corners).map_or(0.0, |bounds| bounds.size().norm());
-    merge_vertices(&mut vertices, ONE_VERTEX * size);
-    if let Some((center, radius)) = one_circle(&vertices) {
-        let is_clockwise = vertices.first().is_some_and(|vertex| vertex[2] < 0.0);
+    let (ring, _) = Ring { vertices }.without_doubled(ONE_VERTEX * size);
+    if let Some((center, radius)) = one_circle(&ring.vertices) {
+        let is_clockwise = ring.vertices.first().is_some_and(|vertex| vertex[2] < 0.0);
         return Closed::Circle { center, radius, is_clockwise };
     }
-    let ring = Ring { vertices };
     let has_net_area = area(&ring.vertices).abs() > NO_AREA * size * size;
     // The signed areas of the lobes of a figure of eight, which takes three vertices, may cancel.
     let has_area = has_net_area || (ring.vertices.len() > 2 && ring.width() > ONE_VERTEX * size);
     if ring.vertices.len() < 2 || !has_area { Closed::Empty } else { Closed::Ring(ring) }
-}
-
-/// Removes each vertex that coincides with the next one, also the last that coincides with the first.
-fn merge_vertices(vertices: &mut Vec<[f64; 3]>, distance: f64) {
-    let is_near = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) <= distance;
-    // The later one is kept with its bulge: the edge between both has zero length. The first one stays in place.
-    let mut kept: Vec<[f64; 3]> = Vec::with_capacity(vertices.len());
-    for vertex in vertices.drain(..) {
-        match kept.last_mut() {
-            Some(last) if is_near(last, &vertex) => last[2] = vertex[2],
-            _ => kept.push(vertex),
-        }
-    }
-    while kept.len() > 1 && is_near(&kept[kept.len() - 1], &kept[0]) {
-        kept.pop();
-    }
-    *vertices = kept;
 }
 
 /// Pairs of neighboring vertices with the bulge between them, around the ring.

@@ -8,6 +8,8 @@ use crate::geometry::import::nest::{Region, regions};
 use crate::geometry::import::nodes::Nodes;
 use crate::math::Bounds;
 
+/// Lengths below this fraction of the size of the drawing count as zero at intersections.
+pub(crate) const TOLERANCE: f64 = 1e-9;
 /// Ends of curves closer than this many tolerances coincide: they are computed twice, once on each curve.
 const JOINED: f64 = 10.0;
 
@@ -20,6 +22,11 @@ impl Solid {
         // The box is relevant only to infinite shapes.
         let bounds = outer.bounds();
         Body::of(&shape_of(outer.clone(), holes.clone()), 0, bounds).into_iter().next().map(Self)
+    }
+
+    /// The solid within a valid ring.
+    pub(crate) fn of_ring(ring: &Ring) -> Option<Self> {
+        Self::of(&(ring.clone(), Vec::new()))
     }
 
     /// The box around it.
@@ -87,15 +94,17 @@ pub(crate) fn area(regions: &[Region]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::import::drawing::seen;
+    use crate::geometry::import::nest::circle;
+    use crate::math::Vec2;
     use std::f64::consts::PI;
 
     fn bar(x: f64, y: f64, width: f64, height: f64) -> Region {
-        let vertices = vec![[x, y, 0.0], [x + width, y, 0.0], [x + width, y + height, 0.0], [x, y + height, 0.0]];
-        (Ring { vertices }, Vec::new())
+        (seen::bar(x, y, width, height), Vec::new())
     }
 
     fn disc(x: f64, y: f64, radius: f64) -> Region {
-        (Ring { vertices: vec![[x - radius, y, 1.0], [x + radius, y, 1.0]] }, Vec::new())
+        (circle(Vec2::new(x, y), radius), Vec::new())
     }
 
     fn solid(region: &Region) -> Solid {

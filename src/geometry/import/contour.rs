@@ -33,7 +33,6 @@ pub(crate) enum Piece {
 pub(crate) struct EllipticArc {
     /// First and last point, exactly as in the file.
     pub(crate) ends: [Vec2; 2],
-    /// Center.
     pub(crate) center: Vec2,
     /// Two conjugate radii.
     pub(crate) radii: [Vec2; 2],
@@ -210,7 +209,7 @@ impl Piece {
                     && arc.sweep.is_finite()
             }
             Self::Cubic(points) => points.iter().all(|&point| is_in_range(point)),
-            Self::Spline(spline) => spline.points().iter().all(|&point| is_in_range(point)),
+            Self::Spline(spline) => spline.points.iter().all(|&point| is_in_range(point)),
         }
     }
 

@@ -115,12 +115,7 @@ fn loops(curves: &[Curve]) -> Option<Vec<Ring>> {
         };
         for k in 0..parts {
             let part = curve.part(f64::from(k) / f64::from(parts), f64::from(k + 1) / f64::from(parts));
-            let bulge = match part {
-                Curve::Segment { .. } => 0.0,
-                Curve::Arc { sweep, .. } => (0.25 * sweep).tan(),
-            };
-            let a = part.point(0.0);
-            open.vertices.push([a.x, a.y, bulge]);
+            open.vertices.push(part.vertex());
         }
         let begin = *first.get_or_insert(curve.point(0.0));
         let size = 1e-9 * (curve.bounds().size().max() + (begin - curve.point(1.0)).norm()).max(begin.norm());
@@ -275,7 +270,9 @@ impl Line {
 mod tests {
     use super::*;
     use crate::geometry::Geometry;
-    use crate::geometry::spec::{CurvedPolygon, Disc, ShapeSpec, SolidSide};
+    use crate::geometry::import::drawing::seen::bar;
+    use crate::geometry::import::nest::circle;
+    use crate::geometry::spec::{Disc, ShapeSpec, SolidSide};
 
     fn spec(shapes: Vec<ShapeSpec>) -> GeometrySpec {
         GeometrySpec { min: [0.0, 0.0], max: [4.0, 3.0], solid: SolidSide::Inside, shapes }
@@ -330,32 +327,13 @@ mod tests {
 
     #[test]
     fn a_comb_is_cut_into_its_teeth_and_a_ring_into_two_walls() {
-        let comb = vec![
-            [1.0, 0.5, 0.0],
-            [6.0, 0.5, 0.0],
-            [6.0, 2.5, 0.0],
-            [1.0, 2.5, 0.0],
-            [1.0, 2.0, 0.0],
-            [5.0, 2.0, 0.0],
-            [5.0, 1.0, 0.0],
-            [1.0, 1.0, 0.0],
-        ];
-        let comb = ShapeSpec::CurvedPolygon(CurvedPolygon {
-            outer: comb,
-            holes: vec![],
-            position: [0.0; 2],
-            rotation_deg: 0.0,
-        });
-        let mut teeth = spec(vec![comb]);
+        let comb = [[1.0, 0.5], [6.0, 0.5], [6.0, 2.5], [1.0, 2.5], [1.0, 2.0], [5.0, 2.0], [5.0, 1.0], [1.0, 1.0]];
+        let comb = Ring { vertices: comb.map(|[x, y]| [x, y, 0.0]).to_vec() };
+        let mut teeth = spec(vec![shape_of(comb, Vec::new())]);
         cut_at_sides(&mut teeth, [Beyond::Whole, Beyond::Nothing, Beyond::Whole, Beyond::Whole]);
         assert_eq!(teeth.shapes.len(), 2);
-        let ring = CurvedPolygon {
-            outer: vec![[2.5, 1.5, 1.0], [4.5, 1.5, 1.0]],
-            holes: vec![vec![[3.0, 1.5, -1.0], [4.0, 1.5, -1.0]]],
-            position: [0.0; 2],
-            rotation_deg: 0.0,
-        };
-        let mut walls = spec(vec![ShapeSpec::CurvedPolygon(ring)]);
+        let [outer, hole] = [1.0, 0.5].map(|radius| circle(Vec2::new(3.5, 1.5), radius));
+        let mut walls = spec(vec![shape_of(outer, vec![hole])]);
         let before = Geometry::unchecked(&walls).porosity().value;
         cut_at_sides(&mut walls, straight([false, true, false, false]));
         let g = Geometry::unchecked(&walls);
@@ -365,13 +343,7 @@ mod tests {
 
     #[test]
     fn a_shape_that_ends_on_the_side_goes_on_and_one_whole_within_is_left_alone() {
-        let block = vec![[3.0, 1.0, 0.0], [4.0, 1.0, 0.0], [4.0, 2.0, 0.0], [3.0, 2.0, 0.0]];
-        let block = ShapeSpec::CurvedPolygon(CurvedPolygon {
-            outer: block,
-            holes: vec![],
-            position: [0.0; 2],
-            rotation_deg: 0.0,
-        });
+        let block = shape_of(bar(3.0, 1.0, 1.0, 1.0), Vec::new());
         let mut cut_spec = spec(vec![block, disc(1.0, 1.0, 0.5)]);
         assert_eq!(cut_at_sides(&mut cut_spec, straight([true; 4])), (1, 0));
         assert_eq!(cut_spec.shapes[1], disc(1.0, 1.0, 0.5));

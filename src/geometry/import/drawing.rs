@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::curve::Curve;
+use crate::geometry::import::rings::of_closed_line;
 use crate::geometry::spec::{CurvedPolygon, Polygon, ShapeSpec};
 use crate::math::{Bounds, Vec2};
 
@@ -133,6 +134,40 @@ pub struct Drawing {
     pub notes: Vec<String>,
 }
 
+impl Drawing {
+    /// Counts entities that are not used, by their kind.
+    pub(crate) fn count(&mut self, kind: &str, number: usize) {
+        *self.unused.entry(kind.to_owned()).or_default() += number;
+    }
+
+    /// Adds a filled shape.
+    pub(crate) fn add(&mut self, outline: Outline, location: String) {
+        self.entities.push(Entity { outline, paint: Paint::Filled, location });
+    }
+
+    /// Adds a polygon by lines whose last points repeat their first ones; an empty one is counted. A line is `None` if a point has no x or y.
+    ///
+    /// # Errors
+    /// What is wrong with its rings.
+    pub(crate) fn add_polygon(&mut self, lines: Vec<Option<Vec<[f64; 2]>>>, location: &str) -> Vec<Refusal> {
+        let (mut found, mut bad) = (Vec::new(), Vec::new());
+        if lines.is_empty() {
+            self.count("empty geometries", 1);
+        }
+        for (k, line) in lines.into_iter().enumerate() {
+            let incomplete = || ("a point without x and y".to_owned(), "points [x, y]".to_owned());
+            match line.ok_or_else(incomplete).and_then(|line| of_closed_line(&line)) {
+                Ok(ring) => found.push(ring),
+                Err((what, expected)) => bad.push(Refusal::new(location, format!("ring {k}: {what}"), expected)),
+            }
+        }
+        if !found.is_empty() {
+            self.add(Outline::Area { rings: found, rule: FillRule::EvenOdd }, location.to_owned());
+        }
+        bad
+    }
+}
+
 /// A part of a file that a reader rejects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
@@ -175,16 +210,11 @@ pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
 /// The start of a curve with its bulge; a circle, or an arc of more than three quarters of one, in two halves.
 pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
     const LARGE: f64 = 1.5 * std::f64::consts::PI;
-    let vertex = |curve: &Curve| {
-        let p = curve.point(0.0);
-        let bulge = if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 };
-        [p.x, p.y, bulge]
-    };
     match curve {
         Curve::Arc { sweep, .. } if sweep.abs() > LARGE => {
-            vec![vertex(&curve.part(0.0, 0.5)), vertex(&curve.part(0.5, 1.0))]
+            vec![curve.part(0.0, 0.5).vertex(), curve.part(0.5, 1.0).vertex()]
         }
-        _ => vec![vertex(curve)],
+        _ => vec![curve.vertex()],
     }
 }
 
@@ -199,6 +229,25 @@ pub(super) mod seen {
             Outline::Disc { radius, .. } => std::f64::consts::PI * radius * radius,
             Outline::Area { rings, .. } => rings.iter().map(Ring::area).sum::<f64>().abs(),
         }
+    }
+
+    /// A rectangle by its lower left corner and its size.
+    pub(crate) fn bar(x: f64, y: f64, width: f64, height: f64) -> Ring {
+        let corners = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]];
+        Ring { vertices: corners.map(|[x, y]| [x, y, 0.0]).to_vec() }
+    }
+
+    /// Centers and radii of a drawing of discs.
+    pub(crate) fn discs(drawing: &Drawing) -> Vec<(Vec2, f64)> {
+        let disc = |outline: &Outline| match outline {
+            Outline::Disc { center, radius } => (*center, *radius),
+            other => panic!("{other:?}"),
+        };
+        drawing.entities.iter().map(|entity| disc(&entity.outline)).collect()
+    }
+
+    pub(crate) fn counts(of: &BTreeMap<String, usize>) -> Vec<(&str, usize)> {
+        of.iter().map(|(name, number)| (name.as_str(), *number)).collect()
     }
 
     pub(crate) fn only(drawing: &Drawing) -> &Outline {

@@ -4,7 +4,7 @@
 //! the crate `shapefile`, which allocates by the counts that a record declares and detects holes by orientation alone. Lines, points and patches are counted
 //! but not used; z and m are ignored.
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal, Unit};
+use crate::geometry::import::drawing::{Drawing, FillRule, Nesting, Outline, Refusal, Unit};
 use crate::geometry::import::rings;
 
 /// Bytes of the header of the file.
@@ -53,7 +53,7 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
         };
         at += 8 + content.len();
         match record(content, &mut drawing) {
-            Ok(Some(outline)) => drawing.entities.push(Entity { outline, paint: Paint::Filled, location }),
+            Ok(Some(outline)) => drawing.add(outline, location),
             Ok(None) => {}
             Err((found, expected)) => bad.push(Refusal { location, found, expected }),
         }
@@ -65,12 +65,11 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
 }
 
 fn record(content: &[u8], drawing: &mut Drawing) -> Result<Option<Outline>, (String, String)> {
-    let mut count = |kind: &str| *drawing.unused.entry(kind.to_owned()).or_default() += 1;
     match little(content, 0) {
-        Some(0) => count("empty records"),
-        Some(1 | 8 | 11 | 18 | 21 | 28) => count("points"),
-        Some(3 | 13 | 23) => count("lines"),
-        Some(31) => count("multipatches"),
+        Some(0) => drawing.count("empty records", 1),
+        Some(1 | 8 | 11 | 18 | 21 | 28) => drawing.count("points", 1),
+        Some(3 | 13 | 23) => drawing.count("lines", 1),
+        Some(31) => drawing.count("multipatches", 1),
         Some(5 | 15 | 25) => return polygon(content).map(Some),
         found => {
             let found = found.map_or("no type".to_owned(), |kind| format!("the type {kind}"));
@@ -107,7 +106,7 @@ fn polygon(content: &[u8]) -> Result<Outline, (String, String)> {
             (from..to).map(|i| Some([number(content, base + 16 * i)?, number(content, base + 16 * i + 8)?])).collect();
         match rings::of_closed_line(&line.unwrap_or_default()) {
             Ok(ring) => found.push(ring),
-            Err(refused) => return Err((format!("part {part}: {}", refused.found), refused.expected)),
+            Err((what, expected)) => return Err((format!("part {part}: {what}"), expected)),
         }
     }
     if found.is_empty() {

@@ -122,19 +122,14 @@ fn bounding_area(ring: &Ring) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::combine::area;
     use super::*;
-
-    fn square(x: f64, y: f64) -> Ring {
-        Ring { vertices: vec![[x, y, 0.0], [x + 2.0, y, 0.0], [x + 2.0, y + 2.0, 0.0], [x, y + 2.0, 0.0]] }
-    }
-
-    fn area(regions: &[Region]) -> f64 {
-        regions.iter().map(|(o, h)| o.area().abs() - h.iter().map(|h| h.area().abs()).sum::<f64>()).sum()
-    }
+    use crate::geometry::import::drawing::seen::bar;
+    use crate::geometry::import::nest::circle;
 
     #[test]
     fn crossing_squares_fill_their_union_or_leave_out_what_both_cover() {
-        let rings = [square(0.0, 0.0), square(1.0, 1.0)];
+        let rings = [bar(0.0, 0.0, 2.0, 2.0), bar(1.0, 1.0, 2.0, 2.0)];
         let of = |rule| area(&filled(&rings, rule, 1e-9).unwrap());
         assert!((of(FillRule::NonZero) - 7.0).abs() < 1e-7);
         assert!((of(FillRule::EvenOdd) - 6.0).abs() < 1e-7);
@@ -152,14 +147,13 @@ mod tests {
 
     #[test]
     fn rings_that_do_not_cross_keep_every_bit() {
-        let rings = [square(0.1, 0.3), square(3.7, 0.0)];
+        let rings = [bar(0.1, 0.3, 2.0, 2.0), bar(3.7, 0.0, 2.0, 2.0)];
         assert_eq!(filled(&rings, FillRule::EvenOdd, 1e-9).unwrap()[1].0, rings[1]);
     }
 
     #[test]
     fn crossing_circles_are_united_and_not_taken_apart() {
-        let disc = |x: f64| Ring { vertices: vec![[x, 0.0, 1.0], [x + 2.0, 0.0, 1.0]] };
-        let rings = [disc(0.0), disc(1.0)];
+        let rings = [1.0, 2.0].map(|x| circle(Vec2::new(x, 0.0), 1.0));
         assert_eq!(filled(&rings, FillRule::NonZero, 1e-9).unwrap().len(), 2);
         assert!(filled(&rings, FillRule::EvenOdd, 1e-9).unwrap_err().contains("cross"));
     }

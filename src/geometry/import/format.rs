@@ -11,7 +11,6 @@ pub(crate) enum Format {
     List,
     /// Well-known text.
     Wkt,
-    /// GeoJSON.
     GeoJson,
     /// ESRI shapefile.
     Shapefile,

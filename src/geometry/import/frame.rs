@@ -5,7 +5,7 @@
 //! is convex, as a border is, it is no wall, and its box is the domain. Otherwise, or within another outline, it is the wall of the pore: all outside of it
 //! is solid. On one layer with what it encloses, it may as well be a plate with holes: the user is asked.
 
-use crate::geometry::import::combine::Solid;
+use crate::geometry::import::combine::{Solid, TOLERANCE};
 use crate::geometry::import::drawing::{Entity, Outline, Paint, Ring};
 use crate::geometry::import::nest::{Region, circle, containing};
 use crate::geometry::import::notes::Notes;
@@ -20,8 +20,6 @@ const NAMES: [&str; 5] = ["frame", "border", "boundary", "wafer", "die"];
 const FEWEST: usize = 2;
 /// A convex outline of more than this share of the area of the one around it is the inner line of a double border.
 const DOUBLE: f64 = 0.8;
-/// Lengths below this fraction of the size of the drawing count as zero at intersections.
-const TOLERANCE: f64 = 1e-9;
 
 /// What remains of a drawing without its frame.
 #[derive(Default)]
@@ -87,8 +85,8 @@ pub(crate) fn taken_out(outlines: &mut Vec<Entity>, options: &Options, notes: &m
 pub(crate) fn around_chamber(chamber: &Ring, domain: Bounds) -> Option<Vec<Region>> {
     let Bounds { min, max } = domain;
     let corners = [[min.x, min.y, 0.0], [max.x, min.y, 0.0], [max.x, max.y, 0.0], [min.x, max.y, 0.0]];
-    let all = Solid::of(&(Ring { vertices: corners.to_vec() }, Vec::new()))?;
-    all.without(&[Solid::of(&(chamber.clone(), Vec::new()))?], TOLERANCE * domain.size().max())
+    let all = Solid::of_ring(&Ring { vertices: corners.to_vec() })?;
+    all.without(&[Solid::of_ring(chamber)?], TOLERANCE * domain.size().max())
 }
 
 /// The outlines around the others.
@@ -182,8 +180,7 @@ impl Around {
 
 /// The outer ring of an outline united with others; `None` if it has holes then, or cannot be determined.
 fn united<'a>(ring: &'a Ring, others: impl Iterator<Item = &'a Ring>) -> Option<Ring> {
-    let parts: Vec<Solid> =
-        std::iter::once(ring).chain(others).filter_map(|ring| Solid::of(&(ring.clone(), Vec::new()))).collect();
+    let parts: Vec<Solid> = std::iter::once(ring).chain(others).filter_map(Solid::of_ring).collect();
     let size = ring.bounds().size().max();
     let all = Solid::united(&parts, TOLERANCE * size)?;
     let (outer, holes) = all.into_iter().max_by(|a, b| a.0.area().abs().total_cmp(&b.0.area().abs()))?;

@@ -5,9 +5,9 @@
 
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
+use crate::geometry::import::drawing::{Drawing, Nesting, Outline, Refusal};
 use crate::geometry::import::text::quoted;
-use crate::geometry::import::{rings, units};
+use crate::geometry::import::units;
 use crate::math::{Bounds, Vec2};
 
 const EXPECTED: &str = "a FeatureCollection, a Feature or a geometry with polygons, or points with a property `radius`";
@@ -78,12 +78,8 @@ impl Reader {
         let location = format!("feature {number}");
         match &feature.geometry {
             Some(geometry) => self.geometry(geometry, &location, feature.property("radius")),
-            None => self.count("features without geometry", 1),
+            None => self.drawing.count("features without geometry", 1),
         }
-    }
-
-    fn count(&mut self, kind: &str, number: usize) {
-        *self.drawing.unused.entry(kind.to_owned()).or_default() += number;
     }
 
     fn geometry(&mut self, geometry: &Geometry, location: &str, radius: Option<&serde_json::Value>) {
@@ -101,13 +97,13 @@ impl Reader {
             }
             GeometryValue::Point { coordinates } => self.points(std::slice::from_ref(coordinates), location, radius),
             GeometryValue::MultiPoint { coordinates } => self.points(coordinates, location, radius),
-            GeometryValue::LineString { .. } => self.count("lines", 1),
-            GeometryValue::MultiLineString { coordinates } => self.count("lines", coordinates.len()),
+            GeometryValue::LineString { .. } => self.drawing.count("lines", 1),
+            GeometryValue::MultiLineString { coordinates } => self.drawing.count("lines", coordinates.len()),
         }
     }
 
     fn points(&mut self, points: &[Position], location: &str, radius: Option<&serde_json::Value>) {
-        let Some(value) = radius else { return self.count("points", points.len()) };
+        let Some(value) = radius else { return self.drawing.count("points", points.len()) };
         let Some(radius) = value.as_f64().filter(|radius| radius.is_finite() && *radius > 0.0) else {
             return self.refuse(location, format!("the radius {value}"), "a radius above 0".into());
         };
@@ -115,7 +111,7 @@ impl Reader {
             match xy(point) {
                 Some([x, y]) => {
                     let outline = Outline::Disc { center: Vec2::new(x, y), radius };
-                    self.drawing.entities.push(Entity { outline, paint: Paint::Filled, location: location.into() });
+                    self.drawing.add(outline, location.into());
                 }
                 None => self.refuse(location, "a point without x and y".into(), "[x, y]".into()),
             }
@@ -123,24 +119,8 @@ impl Reader {
     }
 
     fn polygon(&mut self, coordinates: &[Vec<Position>], location: &str) {
-        let mut found = Vec::new();
-        for (k, ring) in coordinates.iter().enumerate() {
-            let points: Option<Vec<[f64; 2]>> = ring.iter().map(xy).collect();
-            let Some(points) = points else {
-                self.refuse(location, format!("ring {k}: a point without x and y"), "points [x, y]".into());
-                continue;
-            };
-            match rings::of_closed_line(&points) {
-                Ok(ring) => found.push(ring),
-                Err(refused) => self.refuse(location, format!("ring {k}: {}", refused.found), refused.expected),
-            }
-        }
-        if coordinates.is_empty() {
-            self.count("empty geometries", 1);
-        } else if !found.is_empty() {
-            let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
-            self.drawing.entities.push(Entity { outline, paint: Paint::Filled, location: location.into() });
-        }
+        let lines = coordinates.iter().map(|ring| ring.iter().map(xy).collect()).collect();
+        self.bad.extend(self.drawing.add_polygon(lines, location));
     }
 }
 

@@ -12,7 +12,8 @@ const FREE_ITEMS: usize = 500_000;
 #[derive(Debug)]
 pub(crate) struct Budget {
     left: usize,
-    total: usize,
+    /// Number of items that the file could expand to.
+    pub(crate) total: usize,
 }
 
 impl Budget {
@@ -32,11 +33,6 @@ impl Budget {
             None => false,
         }
     }
-
-    /// The total number of items that the file could expand to.
-    pub(crate) fn total(&self) -> usize {
-        self.total
-    }
 }
 
 /// Whether the coordinates of a point are in range.
@@ -51,7 +47,7 @@ mod tests {
     #[test]
     fn a_budget_is_spent_to_its_end_and_not_beyond() {
         let mut budget = Budget::of_file(10);
-        assert_eq!(budget.total(), FREE_ITEMS + 10);
+        assert_eq!(budget.total, FREE_ITEMS + 10);
         assert!(budget.spend(FREE_ITEMS) && budget.spend(10));
         assert!(!budget.spend(1) && budget.spend(0));
     }

@@ -39,8 +39,8 @@ pub(crate) mod units;
 pub(crate) mod window;
 pub(crate) mod wkt;
 
-pub use build::Imported;
 pub(crate) use build::windowed;
+pub use build::{Imported, Refused};
 pub(crate) use cut::{Beyond, cut_at_sides};
 pub(crate) use format::Format;
 pub use options::{Frame, Nested, Options};

@@ -183,14 +183,14 @@ pub(crate) fn regions(rings: &[Ring], rule: FillRule) -> Vec<Region> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::import::drawing::seen::bar;
 
     fn square(center: [f64; 2], half: f64) -> Ring {
-        let corner = |x: f64, y: f64| [center[0] + x * half, center[1] + y * half, 0.0];
-        Ring { vertices: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)] }
+        bar(center[0] - half, center[1] - half, 2.0 * half, 2.0 * half)
     }
 
     fn disc(center: [f64; 2], radius: f64) -> Ring {
-        Ring { vertices: vec![[center[0] - radius, center[1], 1.0], [center[0] + radius, center[1], 1.0]] }
+        circle(center.into(), radius)
     }
 
     #[test]

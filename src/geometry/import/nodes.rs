@@ -7,7 +7,6 @@ use crate::math::Vec2;
 /// Points that coincide within a gap, numbered in order of appearance.
 pub(crate) struct Nodes {
     gap: f64,
-    /// The points.
     pub(crate) points: Vec<Vec2>,
     cells: BTreeMap<[i64; 2], Vec<usize>>,
 }

@@ -109,11 +109,6 @@ impl Options {
         self.invert.unwrap_or(false)
     }
 
-    /// Whether polygons whose vertices lie on a circle become discs.
-    pub(crate) fn recognizes_circles(&self) -> bool {
-        self.recognize_circles.unwrap_or(true)
-    }
-
     /// The largest angle of a smooth vertex in rad.
     pub(crate) fn smooth_below(&self) -> f64 {
         self.smooth_below_deg.unwrap_or(SMOOTH_BELOW_DEG).to_radians()

@@ -5,17 +5,15 @@
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::combine::{Solid, area};
+use crate::geometry::import::combine::{Solid, TOLERANCE, area};
 use crate::geometry::import::drawing::{Refusal, Ring};
 use crate::geometry::import::nest::Region;
 use crate::geometry::import::notes::Notes;
 use crate::geometry::rings::{crossings, faults};
-use crate::math::Vec2;
+use crate::math::{Vec2, root};
 
 /// Fraction of the smaller outline inside the larger one above which it is a hole.
 const HOLE: f64 = 0.5;
-/// Lengths below this fraction of the size of the drawing count as zero at intersections.
-const TOLERANCE: f64 = 1e-9;
 /// Maximum number of rounds of uniting and cutting outlines until none cross.
 const ROUNDS: usize = 4;
 /// Maximum number of source locations in a note.
@@ -34,7 +32,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         if pairs.is_empty() {
             break;
         }
-        let solids: Vec<Option<Solid>> = rings.iter().map(|(ring, _)| Solid::of(&(ring.clone(), Vec::new()))).collect();
+        let solids: Vec<Option<Solid>> = rings.iter().map(|(ring, _)| Solid::of_ring(ring)).collect();
         let (mut together, mut cut): (Vec<[usize; 2]>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
         for &(pair, at) in &pairs {
             let [small, large] =
@@ -49,8 +47,7 @@ pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut
         let mut changed: Vec<Option<Vec<Placed>>> = vec![None; rings.len()];
         // United outlines may be nested differently: the outlines around them wait for the next round.
         for group in groups(&together, rings.len()) {
-            let parts: Vec<Solid> =
-                group.iter().filter_map(|&i| Solid::of(&(rings[i].0.clone(), Vec::new()))).collect();
+            let parts: Vec<Solid> = group.iter().filter_map(|&i| Solid::of_ring(&rings[i].0)).collect();
             let Some(all) = Solid::united(&parts, tolerance) else {
                 refusals.push(refusal(&rings, [group[0], group[1]], rings[group[0]].0.bounds().center()));
                 continue;
@@ -108,18 +105,12 @@ fn crossing_pairs(rings: &[Placed]) -> Vec<([usize; 2], Vec2)> {
 /// Connected groups of rings by their pairs, two or more in each group.
 fn groups(pairs: &[[usize; 2]], count: usize) -> Vec<Vec<usize>> {
     let mut first: Vec<usize> = (0..count).collect();
-    let find = |first: &[usize], mut i: usize| {
-        while first[i] != i {
-            i = first[i];
-        }
-        i
-    };
     for &[a, b] in pairs {
-        let (a, b) = (find(&first, a), find(&first, b));
+        let (a, b) = (root(&mut first, a), root(&mut first, b));
         first[a.max(b)] = a.min(b);
     }
     let mut groups = vec![Vec::new(); count];
-    (0..count).for_each(|i| groups[find(&first, i)].push(i));
+    (0..count).for_each(|i| groups[root(&mut first, i)].push(i));
     groups.retain(|group| group.len() > 1);
     groups
 }

@@ -1,6 +1,6 @@
 //! Shapes in painting order: white ones, and unfilled outlines on larger filled shapes, are pore where they cover those below.
 
-use crate::geometry::import::combine::{Solid, area};
+use crate::geometry::import::combine::{Solid, TOLERANCE, area};
 use crate::geometry::import::drawing::{Entity, Paint, Refusal};
 use crate::geometry::import::fill::without_slits;
 use crate::geometry::import::nest::Region;
@@ -10,12 +10,9 @@ use crate::math::Bounds;
 
 /// Relative tolerance of areas: nothing was covered.
 const SAME: f64 = 1e-12;
-/// Lengths below this fraction of the size of the drawing count as zero at intersections.
-const TOLERANCE: f64 = 1e-9;
 
 /// The area filled by one shape of the file.
 pub(crate) struct Painted {
-    /// Its regions.
     pub(crate) regions: Vec<Region>,
     /// Its fill.
     pub(crate) paint: Paint,

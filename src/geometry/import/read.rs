@@ -4,9 +4,8 @@ use std::path::Path;
 
 use crate::geometry::import::drawing::{Drawing, Refusal};
 use crate::geometry::import::format::Format;
-use crate::geometry::import::mask::{self, MaskOptions};
 use crate::geometry::import::options::Options;
-use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
+use crate::geometry::import::{dxf, esri, geojson, list, mask, svg, wkt};
 use crate::input::file;
 
 /// Reads the bytes of a file; `path` is the location of accompanying files.
@@ -24,10 +23,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         Format::Toml => Err(one("a TOML shape file", "a drawing")),
         Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
         Format::Dxf => dxf::read(bytes, options.layers.as_deref(), options.join_within),
-        Format::Mask => {
-            let (threshold, pixel_size) = (options.threshold, options.pixel_size);
-            mask::read(bytes, &MaskOptions { threshold, invert: options.invert.unwrap_or(false), pixel_size })
-        }
+        Format::Mask => mask::read(bytes, options),
     }
 }
 

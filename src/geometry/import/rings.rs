@@ -11,24 +11,16 @@ const GAP: f64 = 1e-6;
 /// Vertices nearer than this fraction of the drawing's larger side coincide.
 pub(crate) const DOUBLED: f64 = 1e-9;
 
-/// Why a line of points is not a ring.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NoRing {
-    /// What was found.
-    pub(crate) found: String,
-    /// What was expected.
-    pub(crate) expected: String,
-}
-
 /// The ring of a line whose last point repeats its first one, as in WKT, GeoJSON and shapefiles.
-pub(crate) fn of_closed_line(points: &[[f64; 2]]) -> Result<Ring, NoRing> {
+///
+/// # Errors
+/// What was found, and what was expected.
+pub(crate) fn of_closed_line(points: &[[f64; 2]]) -> Result<Ring, (String, String)> {
     if let Some((i, point)) = points.iter().enumerate().find(|(_, p)| !p.iter().all(|v| v.is_finite())) {
         let found = format!("point {i} at {point:?}");
-        return Err(NoRing { found, expected: "finite numbers".into() });
+        return Err((found, "finite numbers".into()));
     }
-    let [first, middle @ .., last] = points else {
-        return Err(too_few(points.len()));
-    };
+    let [first, middle @ .., last] = points else { return Err(too_few(points.len())) };
     if middle.len() < 2 {
         return Err(too_few(points.len()));
     }
@@ -36,32 +28,26 @@ pub(crate) fn of_closed_line(points: &[[f64; 2]]) -> Result<Ring, NoRing> {
     let gap = (Vec2::from(*last) - Vec2::from(*first)).norm();
     if !(gap <= GAP * bounds.size().max()) {
         let ([x, y], [u, v]) = (first, last);
-        return Err(NoRing {
-            found: format!("a line from ({x:e}, {y:e}) to ({u:e}, {v:e})"),
-            expected: "a closed ring, whose last point repeats the first point".into(),
-        });
+        let found = format!("a line from ({x:e}, {y:e}) to ({u:e}, {v:e})");
+        return Err((found, "a closed ring, whose last point repeats the first point".into()));
     }
     let vertices = std::iter::once(first).chain(middle).map(|&[x, y]| [x, y, 0.0]).collect();
     Ok(Ring { vertices })
 }
 
-fn too_few(count: usize) -> NoRing {
-    NoRing { found: format!("{count} point(s)"), expected: "three points or more, and the first point again".into() }
+fn too_few(count: usize) -> (String, String) {
+    (format!("{count} point(s)"), "three points or more, and the first point again".into())
 }
 
 /// The bounding box of points; empty without points.
 pub(crate) fn bounds_of_points(points: impl Iterator<Item = Vec2>) -> Bounds {
-    let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
-    points.fold(none, |b, p| Bounds { min: b.min.inf(&p), max: b.max.sup(&p) })
+    Bounds::around(points).unwrap_or(Bounds::EMPTY)
 }
 
 impl Ring {
     /// The bounding box of the ring, including its arcs.
     pub(crate) fn bounds(&self) -> Bounds {
-        let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
-        bulged_ring(&self.vertices)
-            .map(|curve| curve.bounds())
-            .fold(none, |a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) })
+        bulged_ring(&self.vertices).fold(Bounds::EMPTY, |all, curve| all.united(&curve.bounds()))
     }
 
     /// Signed area, positive if counter-clockwise.
@@ -104,15 +90,15 @@ impl Ring {
     /// The ring without duplicate vertices, and their number.
     pub(crate) fn without_doubled(&self, tolerance: f64) -> (Self, usize) {
         let mut vertices: Vec<[f64; 3]> = Vec::with_capacity(self.vertices.len());
-        let far = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) > tolerance;
+        let is_near = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) <= tolerance;
         for vertex in &self.vertices {
             match vertices.last_mut() {
                 // The edge between the two is removed, with its bulge.
-                Some(last) if !far(last, vertex) => last[2] = vertex[2],
+                Some(last) if is_near(last, vertex) => last[2] = vertex[2],
                 _ => vertices.push(*vertex),
             }
         }
-        while vertices.len() > 1 && !far(&vertices[0], &vertices[vertices.len() - 1]) {
+        while vertices.len() > 1 && is_near(&vertices[0], &vertices[vertices.len() - 1]) {
             vertices.pop();
         }
         let doubled = self.vertices.len() - vertices.len();
@@ -137,7 +123,7 @@ mod tests {
     fn a_small_gap_is_closed_and_a_large_one_is_not() {
         let line = |gap: f64| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [gap, 0.0]];
         assert_eq!(of_closed_line(&line(1e-7)).unwrap().vertices.len(), 3);
-        assert!(of_closed_line(&line(1e-5)).unwrap_err().found.contains("1e-5"));
+        assert!(of_closed_line(&line(1e-5)).unwrap_err().0.contains("1e-5"));
         assert!(of_closed_line(&[[0.0; 2], [1.0, 0.0], [0.0; 2]]).is_err());
         assert!(of_closed_line(&[[0.0; 2], [f64::NAN, 0.0], [0.0, 1.0], [0.0; 2]]).is_err());
     }

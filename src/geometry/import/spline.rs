@@ -4,7 +4,7 @@
 
 use super::affine::Affine;
 use super::biarc::SmoothCurve;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 
 /// The highest degree; programs write 3 and rarely 5.
 pub(crate) const HIGHEST_DEGREE: usize = 11;
@@ -14,7 +14,8 @@ pub(crate) const HIGHEST_DEGREE: usize = 11;
 pub(crate) struct BSpline {
     degree: usize,
     knots: Vec<f64>,
-    points: Vec<Vec2>,
+    /// The control points.
+    pub(crate) points: Vec<Vec2>,
     weights: Vec<f64>,
 }
 
@@ -69,14 +70,7 @@ impl BSpline {
 
     /// Width and height of the box around the control points.
     pub(crate) fn extent(&self) -> f64 {
-        let first = self.points[0];
-        let (low, high) = self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
-        (high - low).norm()
-    }
-
-    /// The control points.
-    pub(crate) fn points(&self) -> &[Vec2] {
-        &self.points
+        Bounds::around(self.points.iter().copied()).map_or(0.0, |bounds| bounds.size().norm())
     }
 
     /// The last span whose knots enclose `t`; at an inner knot the one on the given side.

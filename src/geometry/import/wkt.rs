@@ -7,8 +7,7 @@ use std::str::FromStr;
 
 use wkt::Wkt;
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
-use crate::geometry::import::rings;
+use crate::geometry::import::drawing::{Drawing, Nesting, Refusal};
 use crate::geometry::import::text::{Lines, at_line};
 
 const EXPECTED: &str =
@@ -105,39 +104,22 @@ fn take(chunk: &str, (line, depth): (usize, i64), drawing: &mut Drawing, lines: 
 }
 
 fn collect(geometry: &Wkt<f64>, line: usize, drawing: &mut Drawing, lines: &mut Lines) {
-    let mut count = |kind: &str, number: usize| *drawing.unused.entry(kind.to_owned()).or_default() += number;
     match geometry {
         Wkt::Polygon(polygon) => add(polygon, line, drawing, lines),
         Wkt::MultiPolygon(many) => many.polygons().iter().for_each(|polygon| add(polygon, line, drawing, lines)),
         Wkt::GeometryCollection(many) => {
             many.geometries().iter().for_each(|one| collect(one, line, drawing, lines));
         }
-        Wkt::Point(_) => count("points", 1),
-        Wkt::MultiPoint(many) => count("points", many.points().len()),
-        Wkt::LineString(_) => count("lines", 1),
-        Wkt::MultiLineString(many) => count("lines", many.line_strings().len()),
+        Wkt::Point(_) => drawing.count("points", 1),
+        Wkt::MultiPoint(many) => drawing.count("points", many.points().len()),
+        Wkt::LineString(_) => drawing.count("lines", 1),
+        Wkt::MultiLineString(many) => drawing.count("lines", many.line_strings().len()),
     }
 }
 
 fn add(polygon: &wkt::types::Polygon<f64>, line: usize, drawing: &mut Drawing, lines: &mut Lines) {
-    let mut found = Vec::new();
-    for (k, ring) in polygon.rings().iter().enumerate() {
-        let points: Vec<[f64; 2]> = ring.coords().iter().map(|c| [c.x, c.y]).collect();
-        match rings::of_closed_line(&points) {
-            Ok(ring) => found.push(ring),
-            Err(refused) => lines.bad.push(Refusal {
-                location: at_line(line),
-                found: format!("ring {k}: {}", refused.found),
-                expected: refused.expected,
-            }),
-        }
-    }
-    if polygon.rings().is_empty() {
-        *drawing.unused.entry("empty geometries".to_owned()).or_default() += 1;
-    } else if !found.is_empty() {
-        let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
-        drawing.entities.push(Entity { outline, paint: Paint::Filled, location: at_line(line) });
-    }
+    let points = |ring: &wkt::types::LineString<f64>| Some(ring.coords().iter().map(|c| [c.x, c.y]).collect());
+    lines.bad.extend(drawing.add_polygon(polygon.rings().iter().map(points).collect(), &at_line(line)));
 }
 
 #[cfg(test)]

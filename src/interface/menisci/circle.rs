@@ -61,14 +61,17 @@ pub(super) fn circles(conditions: [Condition; 3]) -> [Option<Circle>; 2] {
         z.iter().all(|z| z.is_finite()).then_some(Circle { x: Vec2::new(z[0], z[1]), y: z[2], k: z[3] })
     };
     // The discriminant of a double root may fall below zero by rounding.
+    roots(a, b, c, 1e-12).map_or([None, None], |both| both.map(circle))
+}
+
+/// The roots of a t² + 2 b t + c = 0, not finite where there are fewer; `None` if its discriminant is below zero by more than `slack` of its terms.
+pub(super) fn roots(a: f64, b: f64, c: f64, slack: f64) -> Option<[f64; 2]> {
     let square = b * b - a * c;
-    if square < -1e-12 * (b * b).max((a * c).abs()) {
-        return [None, None];
+    if square < -slack * (b * b).max((a * c).abs()) {
+        return None;
     }
     let sum = -(b + square.max(0.0).sqrt().copysign(b));
-    let first = circle(sum / a);
-    let second = if sum == 0.0 { first } else { circle(c / sum) };
-    [first, second]
+    Some([sum / a, if sum == 0.0 { sum / a } else { c / sum }])
 }
 
 /// The bilinear form whose square is |X|² − k Y.

@@ -1,12 +1,15 @@
 //! Intersections of two curves.
 
 use crate::geometry::curve::{Curve, cross};
-use crate::math::{Vec2, perpendicular};
+use crate::geometry::intersect::{circle_circle, line_circle};
+use crate::math::Vec2;
+
+/// Rounding of positions, relative to their size.
+pub(super) const SLACK: f64 = 1e-12;
 
 /// The points at which two curves intersect, ends included; none for collinear segments that overlap.
 pub(super) fn meetings(one: &Curve, other: &Curve) -> [Option<Vec2>; 2] {
-    // Rounding of positions, relative to their size.
-    let slack = 1e-12 * (one.bounds().size().norm() + other.bounds().size().norm());
+    let slack = SLACK * (one.bounds().size().norm() + other.bounds().size().norm());
     let on_both =
         |x: &Vec2| (one.project(*x).point - x).norm() <= slack && (other.project(*x).point - x).norm() <= slack;
     let (a, b) = (one.bounds().grown(slack), other.bounds());
@@ -20,30 +23,12 @@ pub(super) fn meetings(one: &Curve, other: &Curve) -> [Option<Vec2>; 2] {
         }
         (Curve::Segment { a, b }, Curve::Arc { center, radius, .. })
         | (Curve::Arc { center, radius, .. }, Curve::Segment { a, b }) => {
-            let t = (b - a).normalize();
-            let middle = a + t * (center - a).dot(&t);
-            let miss = (center - middle).norm();
-            let half = ((radius - miss) * (radius + miss)).max(0.0).sqrt();
-            [half, -half].map(|h| Some(middle + t * h))
+            line_circle(a, b - a, center, radius, f64::INFINITY)
         }
         (Curve::Arc { center: c1, radius: r1, .. }, Curve::Arc { center: c2, radius: r2, .. }) => {
-            circle_circle(c1, r1, c2, r2)
+            circle_circle(c1, r1, c2, r2, SLACK)
         }
     };
     // Infinite or NaN where the lines do not intersect: on neither.
     found.map(|x| x.filter(on_both))
-}
-
-/// Intersections of two circles: the same point twice where they are tangent within rounding.
-pub(super) fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64) -> [Option<Vec2>; 2] {
-    let line = c2 - c1;
-    let distance = line.norm();
-    let slack = 1e-12 * (r1 + r2);
-    if !(distance <= r1 + r2 + slack && distance >= (r1 - r2).abs() - slack && distance > 0.0) {
-        return [None, None];
-    }
-    let t = line / distance;
-    let along = 0.5 * (distance + (r1 - r2) * (r1 + r2) / distance);
-    let half = ((r1 - along) * (r1 + along)).max(0.0).sqrt();
-    [half, -half].map(|h| Some(c1 + t * along + perpendicular(t) * h))
 }

@@ -1,7 +1,8 @@
 //! A meniscus: the arc of a circle, or a straight line, between its contacts with two walls.
 
 use crate::geometry::curve::{Curve, cross};
-use crate::interface::menisci::crossing::{circle_circle, meetings};
+use crate::geometry::intersect::circle_circle;
+use crate::interface::menisci::crossing::{SLACK, meetings};
 use crate::interface::menisci::wall::Contact;
 use crate::math::{Vec2, perpendicular};
 
@@ -111,7 +112,7 @@ impl Meniscus {
             return meetings(&self.curve(), &other.curve());
         };
         let [r1, r2] = [(self.left.point - one).norm(), (other.left.point - two).norm()];
-        circle_circle(one, r1, two, r2).map(|x| x.filter(|x| self.contains(*x) && other.contains(*x)))
+        circle_circle(one, r1, two, r2, SLACK).map(|x| x.filter(|x| self.contains(*x) && other.contains(*x)))
     }
 
     /// Whether a point of its circle (or line) lies on the arc between both contacts.

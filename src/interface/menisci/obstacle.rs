@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::geometry::curve::Curve;
-use crate::interface::menisci::circle::{Circle, Condition, circles, meets_round, meets_straight};
+use crate::interface::menisci::circle::{Circle, Condition, circles, meets_round, meets_straight, roots};
 use crate::interface::menisci::path::{Contacts, Leg, Walls, meets};
 use crate::interface::menisci::wall::{Shape, wrapped};
 use crate::math::{Bounds, Vec2};
@@ -25,11 +25,6 @@ impl Obstacle {
             }
         };
         Self { curves: curves.iter().map(local).map(|curve| (curve, curve.bounds())).collect() }
-    }
-
-    /// The curvature at first contact along a leg.
-    pub(crate) fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
-        self.first_contacts(walls, leg).map(|(_, k)| k)
     }
 
     /// The position of the meniscus at first contact along a leg, and its curvature.
@@ -104,13 +99,9 @@ fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Contact
     };
     let (f0, f1, f2) = (value(0.0), value(0.5), value(1.0));
     let (a, b, c) = (2.0 * (f0 - 2.0 * f1 + f2), 4.0 * f1 - 3.0 * f0 - f2, f0);
-    let square = b * b - 4.0 * a * c;
-    if square < 0.0 {
-        return Vec::new();
-    }
-    let sum = -0.5 * (b + square.sqrt().copysign(b));
-    let shares = [sum / a, c / sum].into_iter().filter(|share| (-SLACK..=1.0 + SLACK).contains(share));
+    let shares = roots(a, 0.5 * b, c, 0.0).into_iter().flatten();
     shares
+        .filter(|share| (-SLACK..=1.0 + SLACK).contains(share))
         .map(|share| {
             let station = walls.station(walls.share(leg, share.clamp(0.0, 1.0)));
             (station.contacts, walls.circle(&station))

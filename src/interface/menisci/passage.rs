@@ -12,7 +12,7 @@ use crate::interface::menisci::meniscus::Meniscus;
 use crate::interface::menisci::obstacle::Obstacle;
 use crate::interface::menisci::path::{Contacts, Leg, Station, Walls, held, meets};
 use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, pieces};
-use crate::math::Vec2;
+use crate::math::{Vec2, halved};
 
 /// The two walls of a throat and all menisci between them.
 #[derive(Debug, Clone)]
@@ -94,7 +94,7 @@ impl Passage {
         // The curvature needed to get there: the maximum along the path so far.
         let mut reached = lowest.curvature;
         for leg in self.path.iter().take_while(|leg| leg.start.curvature <= up_to) {
-            if let Some(k) = obstacle.first_touch(&self.walls, leg) {
+            if let Some((_, k)) = obstacle.first_contacts(&self.walls, leg) {
                 let k = reached.max(k);
                 return (k <= up_to).then_some(k / self.scale);
             }
@@ -198,13 +198,9 @@ impl Walls {
     }
 
     fn bisect(&self, leg: &Leg, k: f64) -> Contacts {
-        let (mut low, mut high) = (0.0, 1.0);
         // One halving per bit of the significand.
-        for _ in 0..52 {
-            let middle = 0.5 * (low + high);
-            let is_below = self.station(self.share(leg, middle)).curvature < k;
-            if is_below == (leg.start.curvature < k) { low = middle } else { high = middle }
-        }
+        let is_below = |share: f64| self.station(self.share(leg, share)).curvature < k;
+        let [_, high] = halved([0.0, 1.0], 52, |share| is_below(share) == (leg.start.curvature < k));
         self.share(leg, high)
     }
 }

@@ -11,6 +11,7 @@ use crate::geometry::curve::cross;
 use crate::interface::menisci::circle::{Circle, Condition, meets_round, meets_straight};
 use crate::interface::menisci::extremes::extreme_circles;
 use crate::interface::menisci::wall::{Piece, Shape, wrapped};
+use crate::math::halved;
 
 /// A contact on each wall: the piece, and the parameter on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,14 +188,12 @@ impl Walls {
     /// The part of a leg in which arcs turn by less than half a turn, within 1e-6.
     fn before_infinity(&self, leg: Leg) -> Leg {
         const TURN: f64 = PI * (1.0 - 1e-6);
-        let (mut low, mut high) = (0.0, 1.0);
+        let bend = |share: f64| {
+            let station = self.station(self.share(&leg, share));
+            leg.start.bend + self.change_of_bend(&leg.start, &station)
+        };
         // A double has a 53-bit significand.
-        for _ in 0..53 {
-            let middle = 0.5 * (low + high);
-            let station = self.station(self.share(&leg, middle));
-            let bend = leg.start.bend + self.change_of_bend(&leg.start, &station);
-            if bend.abs() < TURN { low = middle } else { high = middle }
-        }
+        let [low, _] = halved([0.0, 1.0], 53, |share| bend(share).abs() < TURN);
         Leg { end: self.station(self.share(&leg, low)), ..leg }
     }
 

@@ -46,11 +46,11 @@ struct Local {
 impl System {
     /// The system of particles at the places `x`.
     pub fn new(method: &ParticleMethod, x: &[f64]) -> Self {
-        let pull = method.pull();
+        let pull = method.pull;
         let mut system = Self {
-            alpha: method.kernel().alpha(),
-            weight: method.weight().to_vec(),
-            pull: 2.0 * pull.wetting * method.area().powi(2),
+            alpha: method.kernel.alpha,
+            weight: method.weight.clone(),
+            pull: 2.0 * pull.wetting * method.area.powi(2),
             bond: pull.bond,
             block: if pull.wetting > 0.0 { TOTAL + 1 } else { RIGHT_WEIGHTED + 1 },
             start: Vec::new(),

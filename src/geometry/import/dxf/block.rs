@@ -67,12 +67,6 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn count(&mut self, kind: &str, number: usize) {
-        if number > 0 {
-            *self.drawing.unused.entry(kind.to_owned()).or_default() += number;
-        }
-    }
-
     fn refuse(&mut self, refusal: Refusal) {
         self.refusals.push(refusal);
         self.is_over |= self.refusals.len() >= MOST_REFUSALS;
@@ -82,7 +76,7 @@ impl Reader<'_> {
     fn spend(&mut self, items: usize, location: impl Fn() -> String) -> bool {
         let has_room = self.budget.spend(items);
         if !has_room && !self.is_over {
-            let found = format!("blocks that unfold into more than {} entities and vertices", self.budget.total());
+            let found = format!("blocks that unfold into more than {} entities and vertices", self.budget.total);
             self.refuse(Refusal::new(location(), found, "a drawing with fewer copies of copies (INSERT)"));
             self.is_over = true;
         }
@@ -126,25 +120,25 @@ impl Reader<'_> {
         let layer = if own == "0" { around.unwrap_or("0") } else { &own };
         let state = self.file.layers.get(layer).copied().unwrap_or_default();
         if flag(67) {
-            return self.count("entities in paper space", 1);
+            return self.drawing.count("entities in paper space", 1);
         }
         if flag(60) {
-            return self.count("invisible entities", 1);
+            return self.drawing.count("invisible entities", 1);
         }
         match content {
-            Content::Unused(kind) => self.count(&kind, 1),
+            Content::Unused(kind) => self.drawing.count(&kind, 1),
             // A frozen insertion hides its entities on other layers too, one that is off does not.
             Content::Insert(_) if state.is_frozen && self.layers.is_none() => {
-                self.count("entities on layers that are off or frozen", 1)
+                self.drawing.count("entities on layers that are off or frozen", 1)
             }
             Content::Insert(insert) => self.insert(&insert, record, map, layer),
             Content::Contour { .. } | Content::Wide(_) => {
                 *self.drawing.layers.entry(layer.to_owned()).or_default() += 1;
                 let is_chosen = self.layers.map(|layers| layers.iter().any(|name| name == layer));
                 match (is_chosen, state) {
-                    (Some(false), _) => self.count("entities on other layers", 1),
+                    (Some(false), _) => self.drawing.count("entities on other layers", 1),
                     (None, Layer { is_frozen: true, .. } | Layer { is_off: true, .. }) => {
-                        self.count("entities on layers that are off or frozen", 1)
+                        self.drawing.count("entities on layers that are off or frozen", 1)
                     }
                     _ => self.outlines(content, record, (map, layer)),
                 }
@@ -191,7 +185,7 @@ impl Reader<'_> {
                 }
                 Outline::Area { rings: vec![ring], rule: FillRule::EvenOdd }
             }
-            Closed::Empty => return self.count("outlines without area", 1),
+            Closed::Empty => return self.drawing.count("outlines without area", 1),
         };
         let paint = Paint::Unfilled { layer: layer.to_owned() };
         self.drawing.entities.push(Entity { outline, paint, location });
@@ -248,8 +242,11 @@ impl Reader<'_> {
             for (first, ring) in chains.rings {
                 self.closed(&ring, gap, (open[first].1.clone(), &layer));
             }
-            self.count("open lines", chains.open);
-            self.count("lines drawn twice", chains.doubled);
+            let unused = [("open lines", chains.open), ("lines drawn twice", chains.doubled)];
+            unused
+                .iter()
+                .filter(|(_, number)| *number > 0)
+                .for_each(|(kind, number)| self.drawing.count(kind, *number));
             branches += chains.branches;
         }
         if branches > 0 {

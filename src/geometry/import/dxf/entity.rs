@@ -24,7 +24,6 @@ const UPRIGHT: f64 = 1e-6;
 pub(crate) enum Content {
     /// Consecutive pieces.
     Contour {
-        /// The pieces.
         pieces: Vec<Piece>,
         /// Whether they enclose an area.
         is_closed: bool,

@@ -10,9 +10,7 @@ const MOST: usize = 100_000;
 /// A gap between two free ends, by their indices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    /// Its width.
     pub(crate) width: f64,
-    /// The ends.
     pub(crate) ends: [usize; 2],
 }
 

@@ -12,7 +12,6 @@ const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 pub(crate) struct Group<'a> {
     /// The code, which determines the meaning of the value.
     pub(crate) code: i32,
-    /// The value.
     pub(crate) value: Value<'a>,
     /// Line of the value in a text file, byte offset of the group in a binary one.
     pub(crate) position: usize,

@@ -43,7 +43,6 @@ impl Record<'_> {
 pub(super) struct Layer {
     /// Frozen: entities of blocks inserted on it are hidden too.
     pub is_frozen: bool,
-    /// Off.
     pub is_off: bool,
 }
 

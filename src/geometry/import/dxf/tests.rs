@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::geometry::import::drawing::Outline;
-use crate::geometry::import::drawing::seen::{area, only};
+use crate::geometry::import::drawing::seen::{area, counts, discs, only};
 use crate::math::Vec2;
 
 /// Groups in short notation: `0 LINE; 8 walls; 10 0.5`.
@@ -27,19 +27,11 @@ fn drawn(entities: &str) -> Drawing {
     read(file("", entities).as_bytes(), None, None).unwrap()
 }
 
-fn discs(drawing: &Drawing) -> Vec<[f64; 3]> {
-    let disc = |outline: &Outline| match outline {
-        Outline::Disc { center, radius } => [center.x, center.y, *radius],
-        other => panic!("{other:?}"),
-    };
-    drawing.entities.iter().map(|entity| disc(&entity.outline)).collect()
-}
-
 fn assert_discs(drawing: &Drawing, expected: &[[f64; 3]]) {
     let found = discs(drawing);
     assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+    for ((center, radius), [x, y, r]) in found.iter().zip(expected) {
+        assert!((center - Vec2::new(*x, *y)).norm().max((radius - r).abs()) < 1e-12, "{found:?} {expected:?}");
     }
 }
 
@@ -64,44 +56,31 @@ fn a_circle_in_any_entity_is_the_same_disc() {
 #[test]
 fn areas_of_outlines_are_those_of_closed_formulas() {
     let half = 0.5 * PI;
+    let below = "0 LINE; 10 -2; 20 0; 11 2; 21 0";
+    let ellipse = "0 ELLIPSE; 10 0; 20 0; 11 2; 21 0; 40 0.5; 41 0; 42 3.141592653589793";
+    let stadium = "0 LINE; 10 0; 20 -1; 11 4; 21 -1; 0 ARC; 10 0; 20 0; 40 1; 50 90; 51 270; \
+                   0 LINE; 10 0; 20 1; 11 4; 21 1; 0 ARC; 10 4; 20 0; 40 1; 50 -90; 51 90";
+    let knots = "40 0; 40 0; 40 0; 40 0; 40 1; 40 1; 40 1; 40 1";
+    let bezier = format!("0 SPLINE; 70 8; 71 3; {knots}; 10 -2; 20 0; 10 -2; 20 2; 10 2; 20 2; 10 2; 20 0; {below}");
+    // A rational half circle with the weights 1, 1/3, 1/3, 1.
+    let rational = format!(
+        "0 SPLINE; 70 12; 71 3; {knots}; 41 1; 41 0.3333333333333333; 41 0.3333333333333333; 41 1; \
+         10 1; 20 0; 10 1; 20 2; 10 -1; 20 2; 10 -1; 20 0; 0 LINE; 10 -1; 20 0; 11 1; 21 0"
+    );
     for (entities, expected, tolerance) in [
         ("0 LWPOLYLINE; 70 1; 10 0; 20 0; 10 3; 20 0; 10 3; 20 2; 10 0; 20 2", 6.0, 1e-14),
         ("0 LWPOLYLINE; 70 1; 10 0; 20 0; 42 1; 10 2; 20 0; 10 2; 20 2; 10 0; 20 2", 4.0 + half, 1e-14),
         ("0 SOLID; 10 0; 20 0; 11 3; 21 0; 12 0; 22 2; 13 3; 23 2", 6.0, 1e-14),
         ("0 SOLID; 10 0; 20 0; 11 3; 21 0; 12 0; 22 2; 13 0; 23 2", 3.0, 1e-14),
-        // A stadium of two lines and two arcs in any order; a half disc.
-        (
-            "0 LINE; 10 0; 20 -1; 11 4; 21 -1; 0 ARC; 10 0; 20 0; 40 1; 50 90; 51 270; 0 LINE; 10 0; 20 1; 11 4; 21 1; \
-             0 ARC; 10 4; 20 0; 40 1; 50 -90; 51 90",
-            8.0 + PI,
-            1e-14,
-        ),
+        // Two lines and two arcs in any order; a half disc.
+        (stadium, 8.0 + PI, 1e-14),
         ("0 ARC; 10 0; 20 0; 40 1; 50 0; 51 180; 0 LINE; 10 -1; 20 0; 11 1; 21 0", half, 1e-14),
         ("0 ELLIPSE; 10 1; 20 1; 11 3; 21 4; 40 0.4; 41 0; 42 6.283185307179586", 10.0 * PI, 1e-5),
-        (
-            "0 ELLIPSE; 10 0; 20 0; 11 2; 21 0; 40 0.5; 41 0; 42 3.141592653589793; 0 LINE; 10 -2; 20 0; 11 2; 21 0",
-            PI,
-            1e-5,
-        ),
+        (&format!("{ellipse}; {below}"), PI, 1e-5),
         // The mirrored upper half is the lower one.
-        (
-            "0 ELLIPSE; 10 0; 20 0; 11 2; 21 0; 40 0.5; 41 0; 42 3.141592653589793; 230 -1; 0 LINE; 10 -2; 20 0; 11 2; 21 0",
-            PI,
-            1e-5,
-        ),
-        // A Bezier curve as a spline; a rational half circle with the weights 1, 1/2, 1/2, 1.
-        (
-            "0 SPLINE; 70 8; 71 3; 40 0; 40 0; 40 0; 40 0; 40 1; 40 1; 40 1; 40 1; 10 0; 20 0; 10 0; 20 2; 10 4; 20 2; 10 4; 20 0; \
-          0 LINE; 10 0; 20 0; 11 4; 21 0",
-            4.8,
-            1e-5,
-        ),
-        (
-            "0 SPLINE; 70 12; 71 3; 40 0; 40 0; 40 0; 40 0; 40 1; 40 1; 40 1; 40 1; 41 1; 41 0.3333333333333333; 41 0.3333333333333333; 41 1; \
-          10 1; 20 0; 10 1; 20 2; 10 -1; 20 2; 10 -1; 20 0; 0 LINE; 10 -1; 20 0; 11 1; 21 0",
-            half,
-            1e-5,
-        ),
+        (&format!("{ellipse}; 230 -1; {below}"), PI, 1e-5),
+        (&bezier, 4.8, 1e-5),
+        (&rational, half, 1e-5),
     ] {
         let drawing = drawn(entities);
         let found = area(only(&drawing));
@@ -148,17 +127,14 @@ fn layers_are_chosen_and_those_off_are_left_out() {
     let text = file(blocks, entities);
     let radii = |layers: Option<&[String]>| {
         let drawing = read(text.as_bytes(), layers, None).unwrap();
-        let counts: Vec<_> = drawing.layers.iter().map(|(name, number)| (name.as_str(), *number)).collect();
-        assert_eq!(counts, [("0", 1), ("cold", 1), ("dark", 1), ("walls", 1)]);
-        discs(&drawing).iter().map(|disc| disc[2]).collect::<Vec<_>>()
+        assert_eq!(counts(&drawing.layers), [("0", 1), ("cold", 1), ("dark", 1), ("walls", 1)]);
+        discs(&drawing).iter().map(|disc| disc.1).collect::<Vec<_>>()
     };
     assert_eq!(radii(None), [1.0, 4.0]);
     assert_eq!(radii(Some(&["walls".to_owned()])), [1.0]);
     assert_eq!(radii(Some(&["dark".to_owned(), "cold".to_owned()])), [2.0, 3.0], "layers that are named are read");
-    let unused = read(text.as_bytes(), None, None).unwrap().unused;
-    let unused: Vec<_> = unused.iter().map(|(kind, number)| (kind.as_str(), *number)).collect();
     assert_eq!(
-        unused,
+        counts(&read(text.as_bytes(), None, None).unwrap().unused),
         [("entities in paper space", 1), ("entities on layers that are off or frozen", 2), ("invisible entities", 1)]
     );
     let refusals = read(text.as_bytes(), Some(&["posts".to_owned()]), None).unwrap_err();
@@ -176,7 +152,6 @@ fn what_encloses_nothing_is_counted_by_its_kind() {
          0 POLYLINE; 70 64; 0 VERTEX; 10 0; 20 0; 0 SEQEND; 0 CIRCLE; 10 0; 20 0; 40 1",
     );
     assert_discs(&drawing, &[[0.0, 0.0, 1.0]]);
-    let unused: Vec<_> = drawing.unused.iter().map(|(kind, number)| (kind.as_str(), *number)).collect();
     let expected = [
         ("HATCH", 2),
         ("MPOLYGON", 1),
@@ -186,7 +161,7 @@ fn what_encloses_nothing_is_counted_by_its_kind() {
         ("meshes", 1),
         ("open lines", 3),
     ];
-    assert_eq!(unused, expected);
+    assert_eq!(counts(&drawing.unused), expected);
 }
 
 #[test]
@@ -247,54 +222,27 @@ fn bad_files_are_refused_with_place_and_reason() {
         (0..70).map(|i| format!("0 BLOCK; 2 B{i}; 0 INSERT; 2 B{}; 10 0; 20 0; 0 ENDBLK;", i + 1)).collect();
     let many =
         format!("{POST}; 0 BLOCK; 2 ROW; 10 0; 20 0; 0 INSERT; 2 POST; 10 0; 20 0; 70 30000; 71 30000; 0 ENDBLK");
-    let cases = [
-        ("", "0 CIRCLE; 5 2F; 10 3; 20 4; 40 -2", "CIRCLE 2F: found radius -2, expected a radius above 0"),
-        (
-            "",
-            "0 CIRCLE; 5 2F; 10 3; 20 4",
-            "CIRCLE 2F: found a truncated entity, expected a value behind group code 40",
-        ),
-        (
-            "",
-            "0 CIRCLE; 5 2F; 10 3,5; 20 4; 40 1",
-            "line 62, CIRCLE 2F: found `3,5` behind group code 10, expected a finite number",
-        ),
-        (
-            "",
-            "0 CIRCLE; 5 2F; 10 nan; 20 4; 40 1",
-            "line 62, CIRCLE 2F: found `nan` behind group code 10, expected a finite number",
-        ),
-        (
-            "",
-            "0 CIRCLE; 5 2F; 10 1e99; 20 4; 40 1",
-            "CIRCLE 2F: found a coordinate out of range, expected coordinates below",
-        ),
-        (
-            "",
-            "0 SPLINE; 5 2F; 71 3; 72 1000000000; 10 0; 20 0",
-            "SPLINE 2F: found 1 control points for degree 3, expected knots",
-        ),
-        ("", "0 SPLINE; 5 2F; 71 3; 74 0", "SPLINE 2F: found no points, expected control points or fit points"),
-        ("", "0 ELLIPSE; 5 2F; 10 0; 20 0; 11 1; 21 0; 40 0", "ELLIPSE 2F: found an axis of no length"),
-        ("", "0 INSERT; 5 2F; 2 Nobody; 10 0; 20 0", "INSERT 2F: found the block `NOBODY`, which is not in the file"),
-        (
-            "0 BLOCK; 2 A; 0 INSERT; 5 7; 2 A; 10 0; 20 0; 0 ENDBLK",
-            "0 INSERT; 2 A; 10 0; 20 0",
-            "INSERT 7: found the block `A` within itself",
-        ),
-        (
-            &chain,
-            "0 INSERT; 2 B0; 10 0; 20 0",
-            "INSERT at line 938: found the block `B64` within itself, or within 64 others",
-        ),
+    let entities = "
+0 CIRCLE; 5 2F; 10 3; 20 4; 40 -2 => CIRCLE 2F: found radius -2, expected a radius above 0
+0 CIRCLE; 5 2F; 10 3; 20 4 => CIRCLE 2F: found a truncated entity, expected a value behind group code 40
+0 CIRCLE; 5 2F; 10 3,5; 20 4; 40 1 => line 62, CIRCLE 2F: found `3,5` behind group code 10, expected a finite number
+0 CIRCLE; 5 2F; 10 nan; 20 4; 40 1 => line 62, CIRCLE 2F: found `nan` behind group code 10, expected a finite number
+0 CIRCLE; 5 2F; 10 1e99; 20 4; 40 1 => CIRCLE 2F: found a coordinate out of range, expected coordinates below
+0 SPLINE; 5 2F; 71 3; 72 1000000000; 10 0; 20 0 => SPLINE 2F: found 1 control points for degree 3, expected knots
+0 SPLINE; 5 2F; 71 3; 74 0 => SPLINE 2F: found no points, expected control points or fit points
+0 ELLIPSE; 5 2F; 10 0; 20 0; 11 1; 21 0; 40 0 => ELLIPSE 2F: found an axis of no length
+0 INSERT; 5 2F; 2 Nobody; 10 0; 20 0 => INSERT 2F: found the block `NOBODY`, which is not in the file";
+    let entities = entities.trim().lines().map(|row| row.split_once(" => ").unwrap());
+    let (itself, empty) = ("0 BLOCK; 2 A; 0 INSERT; 5 7; 2 A; 10 0; 20 0; 0 ENDBLK", "0 BLOCK; 2 E; 0 ENDBLK");
+    let copies = "0 INSERT; 5 7; 2 E; 10 0; 20 0; 70 1000000000; 71 1000000000";
+    let deep = "INSERT at line 938: found the block `B64` within itself, or within 64 others";
+    let of_blocks = [
+        (itself, "0 INSERT; 2 A; 10 0; 20 0", "INSERT 7: found the block `A` within itself"),
+        (&chain, "0 INSERT; 2 B0; 10 0; 20 0", deep),
         (&many, "0 INSERT; 5 7; 2 ROW; 10 0; 20 0; 70 30000", ": found blocks that unfold into more than"),
-        (
-            "0 BLOCK; 2 E; 0 ENDBLK",
-            "0 INSERT; 5 7; 2 E; 10 0; 20 0; 70 1000000000; 71 1000000000",
-            "INSERT 7: found blocks that unfold into",
-        ),
+        (empty, copies, "INSERT 7: found blocks that unfold into"),
     ];
-    for (blocks, entities, expected) in cases {
+    for (blocks, entities, expected) in entities.map(|(entities, expected)| ("", entities, expected)).chain(of_blocks) {
         let refusals = read(file(blocks, entities).as_bytes(), None, None).expect_err(entities);
         assert!(refusals[0].to_string().contains(expected), "{}\n{expected}", refusals[0]);
     }
@@ -316,14 +264,6 @@ fn bad_files_are_refused_with_place_and_reason() {
     assert_eq!(read(two.as_bytes(), None, None).unwrap_err().len(), 2, "all mistakes at once");
 }
 
-#[test]
-fn five_thousand_circles_are_read() {
-    let circles: String =
-        (0..5000).map(|i| format!("0 CIRCLE; 5 {i:X}; 8 walls; 10 {}; 20 {}; 40 0.4;", i % 70, i / 70)).collect();
-    let text = file("", &circles);
-    assert_eq!(read(text.as_bytes(), None, None).unwrap().entities.len(), 5000);
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
@@ -341,22 +281,6 @@ proptest! {
         let at = at.min(bytes.len());
         let end = (at + cut).min(bytes.len());
         bytes.splice(at..end, with.bytes());
-        let _ = read(&bytes, None, None);
-    }
-
-    #[test]
-    fn damaged_binary_files_are_read_or_refused_without_panic(damage in proptest::collection::vec((0usize..60_000, any::<u8>()), 1..6), end in 0usize..90_000) {
-        static BYTES: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
-        let mut bytes = BYTES.get_or_init(|| {
-            let mut bytes = Vec::new();
-            by_other_program().save_binary(&mut bytes).unwrap();
-            bytes
-        }).clone();
-        for (at, byte) in damage {
-            let at = at % bytes.len();
-            bytes[at] = byte;
-        }
-        bytes.truncate(end.max(30));
         let _ = read(&bytes, None, None);
     }
 }

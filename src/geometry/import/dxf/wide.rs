@@ -8,7 +8,7 @@ use crate::geometry::import::combine::Solid;
 use crate::geometry::import::contour::Piece;
 use crate::geometry::import::drawing::Ring;
 use crate::geometry::rings::faults;
-use crate::math::{Vec2, perpendicular};
+use crate::math::{Bounds, Vec2, perpendicular};
 
 /// Lengths below this fraction of the size of the polyline count as zero.
 const TOLERANCE: f64 = 1e-9;
@@ -45,10 +45,9 @@ pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<P
         let found = format!("a polyline of {} edges with a width", edges.len());
         return Err((found, "its outline as a polyline of width 0"));
     }
-    let size =
-        vertices.iter().fold((vertices[0].point, vertices[0].point), |(a, b), v| (a.inf(&v.point), b.sup(&v.point)));
+    let size = Bounds::around(vertices.iter().map(|v| v.point)).map_or(0.0, |bounds| bounds.size().norm());
     let most = vertices.iter().flat_map(|v| v.width).fold(0.0, f64::max);
-    let tolerance = TOLERANCE * ((size.1 - size.0).norm() + most);
+    let tolerance = TOLERANCE * (size + most);
     let mut parts: Vec<Ring> = Vec::new();
     for edge in &edges {
         parts.extend(band(edge, tolerance)?);
@@ -57,7 +56,7 @@ pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<P
     let joints = if is_closed { edges.len() } else { edges.len().saturating_sub(1) };
     parts.extend(edges.iter().zip(next).take(joints).filter_map(|(a, b)| joint(a, b, tolerance)));
     if is_closed {
-        let ring = Ring { vertices: edges.iter().map(|edge| start(&edge.curve)).collect() };
+        let ring = Ring { vertices: edges.iter().map(|edge| edge.curve.vertex()).collect() };
         let curves: Vec<Curve> = bulged_ring(&ring.vertices).collect();
         if !faults(&[curves]).is_empty() {
             return Err((
@@ -67,7 +66,7 @@ pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<P
         }
         parts.extend(Some(ring).filter(|ring| ring.width() > tolerance));
     }
-    let solids: Vec<Solid> = parts.into_iter().filter_map(|ring| Solid::of(&(ring, Vec::new()))).collect();
+    let solids: Vec<Solid> = parts.iter().filter_map(Solid::of_ring).collect();
     let united = Solid::united(&solids, tolerance).ok_or_else(|| {
         let found = "a polyline whose sides touch in a point".to_owned();
         (found, "another width, or its outlines as polylines of width 0")
@@ -84,15 +83,6 @@ fn edges(vertices: &[Vertex], is_closed: bool) -> Vec<Edge> {
         half: a.width.map(|width| 0.5 * width),
     };
     pairs.filter(|(a, b)| a.point != b.point).map(edge).collect()
-}
-
-fn start(curve: &Curve) -> [f64; 3] {
-    let p = curve.point(0.0);
-    [p.x, p.y, bulge(curve)]
-}
-
-fn bulge(curve: &Curve) -> f64 {
-    if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 }
 }
 
 /// The area covered by an edge, each ring counter-clockwise; empty without width.

@@ -1,6 +1,5 @@
 //! A smooth curve as few arcs: pairs of arcs with a common tangent (biarcs) through selected points.
 
-use super::super::drawing::Ring;
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
 
@@ -131,11 +130,6 @@ pub(super) fn move_out(vertices: &mut [Vertex], by: f64) {
     for vertex in vertices {
         vertex.point -= perpendicular(vertex.tangent) * by;
     }
-}
-
-/// The chain as a ring of a drawing.
-pub(super) fn ring(vertices: &[Vertex]) -> Ring {
-    Ring { vertices: vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge]).collect() }
 }
 
 #[cfg(test)]

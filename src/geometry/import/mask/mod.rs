@@ -20,18 +20,8 @@ mod wall;
 use outlines::Outlines;
 
 use crate::geometry::import::drawing::{Drawing, Refusal, Unit};
+use crate::geometry::import::options::Options;
 use crate::math::{Bounds, Vec2};
-
-/// Options for reading a mask.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MaskOptions {
-    /// Gray value that separates solid from pore, above 0 (black) and below 1 (white); one half by default.
-    pub threshold: Option<f64>,
-    /// Whether bright pixels are solid, rather than dark ones.
-    pub invert: bool,
-    /// Side of a pixel in m.
-    pub pixel_size: Option<f64>,
-}
 
 /// Default gray value that separates solid from pore.
 const THRESHOLD: f64 = 0.5;
@@ -40,20 +30,17 @@ const THRESHOLD: f64 = 0.5;
 ///
 /// # Errors
 /// Problems of the file, the threshold or the image.
-pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>> {
+pub fn read(bytes: &[u8], options: &Options) -> Result<Drawing, Vec<Refusal>> {
     let threshold = options.threshold.unwrap_or(THRESHOLD);
     if !(threshold > 0.0 && threshold < 1.0) {
-        return Err(vec![Refusal {
-            location: "threshold".into(),
-            found: format!("{threshold}"),
-            expected: "a gray value above 0 (black) and below 1 (white)".into(),
-        }]);
+        let expected = "a gray value above 0 (black) and below 1 (white)";
+        return Err(vec![Refusal::new("threshold", threshold.to_string(), expected)]);
     }
     let image = pixels::decode(bytes).map_err(|refusal| vec![refusal])?;
-    let (solid, mut notes) = image.solid(threshold, options.invert).map_err(|refusal| vec![refusal])?;
+    let (solid, mut notes) = image.solid(threshold, options.is_inverted()).map_err(|refusal| vec![refusal])?;
     let Outlines { entities, specks, rough } = outlines::outlines(&solid);
     let share = solid.mean();
-    let kind = if options.invert { "bright" } else { "dark" };
+    let kind = if options.is_inverted() { "bright" } else { "dark" };
     notes.insert(
         0,
         format!(

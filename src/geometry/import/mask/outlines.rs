@@ -265,7 +265,7 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
             let from = at_edge(head.point, -head.tangent, -inwards, [w, h]);
             let to = at_edge(tail.point, tail.tangent, outwards, [w, h]);
             ring.vertices.extend([straight(from - inwards * beyond), straight(from)]);
-            ring.vertices.extend(wall.vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge]));
+            ring.vertices.extend(wall.ring().vertices);
             ring.vertices.extend([straight(to), straight(to + outwards * beyond)]);
             let follower = next[at].unwrap_or(at);
             let leave = edge_position(grid, grid.middle(*end));

@@ -107,7 +107,7 @@ impl Wall {
     }
 
     pub(crate) fn ring(&self) -> Ring {
-        arcs::ring(&self.vertices)
+        Ring { vertices: self.vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge]).collect() }
     }
 
     pub(crate) fn radius(&self) -> f64 {

@@ -162,7 +162,6 @@ fn point(text: &str, viewport: Viewport) -> Option<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::import::drawing::{Drawing, Outline, Refusal};
 
     #[test]
     fn css_transforms_are_those_of_the_attribute() {
@@ -202,45 +201,5 @@ mod tests {
             assert_eq!(point(text, viewport), Some(expected.into()), "{text}");
         }
         assert_eq!(point("50%", Viewport { size: None }), None);
-    }
-
-    fn read(content: &str) -> Result<Drawing, Vec<Refusal>> {
-        let text = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 50'>\n{content}\n</svg>");
-        super::super::read(&text, None)
-    }
-
-    fn disc(content: &str) -> (Vec2, f64) {
-        match read(content).unwrap().entities[0].outline {
-            Outline::Disc { center, radius } => (center, radius),
-            ref other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn css_moves_shapes_and_what_it_says_beyond_transforms_is_refused_with_its_line() {
-        for content in [
-            "<circle r='5' style='transform: translate(10px, 30px)'/>",
-            "<style>#a{transform:translate(10px) translateY(30px)}</style><circle id='a' r='5' transform='scale(9)'/>",
-            "<g style='transform:scale(.5)'><circle cx='20' cy='60' r='10'/></g>",
-            "<circle cx='50' cy='25' r='5' style='transform: translate(-40px, 5px) rotate(1turn); transform-origin: center'/>",
-            "<symbol id='s' style='transform:translate(10px,30px)'><circle r='5'/></symbol><use href='#s'/>",
-        ] {
-            let (center, radius) = disc(content);
-            assert!(
-                (center - Vec2::new(10.0, 20.0)).norm() < 1e-12 && (radius - 5.0).abs() < 1e-12,
-                "{content}: {center}"
-            );
-        }
-        for (style, found) in [
-            ("transform: rotateY(20deg)", "`transform: rotateY(20deg)`"),
-            ("transform: translate(1em)", "`transform: translate(1em)`"),
-            ("transform: rotate(20deg); transform-box: fill-box", "`transform-box: fill-box`"),
-            ("rotate: 20deg", "`rotate: 20deg` in its style"),
-            ("r: 7px", "`r: 7px` in its style"),
-        ] {
-            let refusals = read(&format!("<circle r='2' style='{style}'/>")).unwrap_err();
-            let message = refusals[0].to_string();
-            assert!(message.starts_with("line 2: found ") && message.contains(found), "{message}");
-        }
     }
 }

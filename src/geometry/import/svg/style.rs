@@ -54,7 +54,6 @@ pub(crate) const MOST_RULES: usize = 200;
 pub(crate) enum Fill {
     /// Nothing.
     None,
-    /// White.
     White,
     /// Any other color, as red, green and blue, or a number for a gradient or a pattern.
     Color(u32),
@@ -67,7 +66,6 @@ pub(crate) struct Style {
     pub(crate) is_removed: bool,
     /// Whether it is visible by `visibility`.
     pub(crate) is_visible: bool,
-    /// Its fill.
     pub(crate) fill: Fill,
     /// Its fill rule.
     pub(crate) rule: FillRule,

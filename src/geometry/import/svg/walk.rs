@@ -153,7 +153,7 @@ impl<'a, 'input> Walk<'a, 'input> {
     }
 
     fn count(&mut self, kind: &str) {
-        *self.drawing.unused.entry(kind.to_owned()).or_default() += 1;
+        self.drawing.count(kind, 1);
     }
 
     fn children(&mut self, node: Node<'a, 'input>, context: &Context<'a>) {
@@ -200,7 +200,11 @@ impl<'a, 'input> Walk<'a, 'input> {
                     self.element(child, &context);
                 }
             }
-            "svg" => self.nested_page(node, context),
+            "svg" => {
+                if self.viewport(node, node, &mut context).is_some() {
+                    self.children(node, &context);
+                }
+            }
             "use" => self.copy(node, context),
             "text" | "image" | "foreignObject" => self.count(name),
             _ if shape::SHAPES.contains(&name) => {
@@ -217,7 +221,7 @@ impl<'a, 'input> Walk<'a, 'input> {
     }
 
     fn refuse_size(&mut self, node: Node) {
-        let found = format!("copies that unfold into more than {} elements and vertices", self.budget.total());
+        let found = format!("copies that unfold into more than {} elements and vertices", self.budget.total);
         self.refuse(node, found, "a drawing with fewer copies of copies (`use`)");
         self.is_over = true;
     }
@@ -242,13 +246,6 @@ impl<'a, 'input> Walk<'a, 'input> {
         if is_layer || parent.layer.is_none() {
             let [label, id] = Self::names(node);
             context.layer = label.or(id).or(parent.layer);
-        }
-    }
-
-    fn nested_page(&mut self, node: Node<'a, 'input>, mut context: Context<'a>) {
-        let size = self.viewport(node, node, &mut context);
-        if size.is_some() {
-            self.children(node, &context);
         }
     }
 

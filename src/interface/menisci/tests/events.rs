@@ -7,6 +7,14 @@ use crate::geometry::curve::{Curve, cross};
 use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::math::Vec2;
 
+/// Asserts that a curvature is that seen by a scan in steps of `step`, and counts the cases with one and those without.
+fn assert_seen(case: i32, found: Option<f64>, scan: Option<f64>, step: f64, counts: &mut [i32; 2]) {
+    let is_near = |k: f64, scanned: f64| k <= scanned + 1e-9 && k > scanned - 2.0 * step;
+    assert!(found.zip(scan).is_none_or(|(k, scanned)| is_near(k, scanned)), "{case}: {found:?} {scan:?} {step}");
+    assert_eq!(found.is_some(), scan.is_some(), "{case}: {found:?}, seen {scan:?}");
+    counts[usize::from(found.is_none())] += 1;
+}
+
 /// [CieplakRobbins1988]
 #[test]
 fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
@@ -23,14 +31,7 @@ fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
             .map(|i| low + (high - low) * f64::from(i) / f64::from(n))
             .find(|&k| passage.at(k).unwrap().points(50).iter().any(|&x| cell.is_inside(2, x)));
         let step = (high - low) / f64::from(n);
-        match (found, scan) {
-            (Some(k), Some(scanned)) => {
-                counts[0] += 1;
-                assert!(k <= scanned + 1e-9 && k > scanned - 2.0 * step, "{case}: {k} {scanned} {step}");
-            }
-            (None, None) => counts[1] += 1,
-            _ => panic!("{case}: {found:?}, seen {scan:?}"),
-        }
+        assert_seen(case, found, scan, step, &mut counts);
     }
     assert!(counts[0] > 50 && counts[1] > 50, "{counts:?}");
 }
@@ -89,14 +90,7 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
         // Where they have met and remain so: of a meniscus far behind its throat a crossing ahead of both may vanish again.
         let scan = (0..=n).rev().take_while(|&i| have_met(at(i))).last().map(at);
         let step = (up_to - low) / n as f64;
-        match (found, scan) {
-            (Some(k), Some(scanned)) => {
-                counts[0] += 1;
-                assert!(k <= scanned + 1e-9 && k > scanned - 2.0 * step, "{case}: {k} {scanned} {step}");
-            }
-            (None, None) => counts[1] += 1,
-            _ => panic!("{case}: {found:?}, seen {scan:?}"),
-        }
+        assert_seen(case, found, scan, step, &mut counts);
     }
     assert!(counts[0] > 50 && counts[1] > 50, "{counts:?}");
 }
