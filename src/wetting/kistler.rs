@@ -45,20 +45,3 @@ fn shift(angle: f64) -> f64 {
     }
     0.5 * (low + high)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// [Kistler1993]
-    #[test]
-    fn angles_are_the_published_ones() {
-        let model = Kistler { contact_angle_deg: 46.8 };
-        for (capillary, expected) in [(1e-4, 47.03), (1e-3, 49.04), (1e-2, 64.12)] {
-            let line =
-                LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, ..LineState::default() };
-            let found = model.angle(&line).to_degrees();
-            assert!((found - expected).abs() < 0.006, "{capillary}: {found}");
-        }
-    }
-}
