@@ -25,7 +25,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let mut solver = built(&source, Mode::New)?;
     let checked = tried(case, solver.as_mut())?;
     if arguments.json {
-        say(checked.json().map_err(|error| Failure::new(BUG, &error))?);
+        say(checked.json().map_err(Failure::with(BUG))?);
         return Ok(DONE);
     }
     let Checked { trial: found, warnings, advice } = checked;
@@ -144,7 +144,7 @@ fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
     let mut display = ProgressDisplay::new();
     let found = checked::check(case, solver, &mut |fraction| display.trial(fraction));
     display.finish();
-    found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
+    found.map_err(Failure::with(SOLVER_FAILED))
 }
 
 /// Initial spacing of particles or nodes in m.

@@ -25,24 +25,22 @@ use crate::verify::subject::{Subject, SubjectError};
 /// Selects throats and events, writes the cases, runs them, and prints the results.
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
-    let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
-    let usage = |error: &dyn std::fmt::Display| Failure::new(USAGE, &error);
     let subject = Subject::new(&source.case).map_err(|error| match error {
         SubjectError::Setup(misfit) => source.refused(&misfit.into()).into(),
-        other => bad(&other),
+        other => Failure::new(BAD_INPUT, &other),
     })?;
     let choices: Vec<Choice> = parsed(&arguments.throats)?;
     let event_choices: Vec<EventChoice> = parsed(&arguments.events)?;
-    let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
+    let chosen = choose(&subject, &choices, arguments.seed).map_err(Failure::with(USAGE))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
-    let mut events = choose_events(&subject, &event_choices, arguments.seed).map_err(|error| usage(&error))?;
+    let mut events = choose_events(&subject, &event_choices, arguments.seed).map_err(Failure::with(USAGE))?;
     let given = if arguments.alike { [None; 2] } else { subject.fluids };
     let fluids = Fluids { given, tension: subject.tension, invading: subject.invading, chip: subject.chip };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let plan = Plan { throats: &planned, events: &events, fluids: &fluids, spacings: &spacings, network: &name };
-    let written = plan::write(&folder, &plan).map_err(|error| usage(&error))?;
+    let written = plan::write(&folder, &plan).map_err(Failure::with(USAGE))?;
     for (index, why) in written.refused {
         planned[index].subdomain = Err(Impossible::Case(why));
     }
@@ -85,7 +83,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         events.iter().map(|one| event_row(one, &fluids, &spacings, &found, &study_folder)).collect();
     let title = format!("Throats of {name} by direct simulation");
     let written = report::write(&folder, &subject, &rows, &event_rows, (&spacings, &fluids), &title)
-        .map_err(|error| usage(&error))?;
+        .map_err(Failure::with(USAGE))?;
     say(&title);
     if !rows.is_empty() {
         say(written.table.markdown().trim_end());
@@ -114,7 +112,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
 }
 
 fn parsed<T: std::str::FromStr<Err = String>>(texts: &[String]) -> Result<Vec<T>, Failure> {
-    texts.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
+    texts.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(Failure::with(USAGE))
 }
 
 fn is_open(results: &[RunResult]) -> bool {
