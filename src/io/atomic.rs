@@ -3,6 +3,7 @@
 //! If the program is killed, the old file or the new one remains. Data is not synced to the disk, so a power cut may still lose a file; what must survive that
 //! carries a checksum (see [`super::restart`]).
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -61,6 +62,16 @@ impl FileError {
     /// A [`FileError::Read`], for `map_err`.
     pub(crate) fn read(path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::Read { path: path.to_path_buf(), source }
+    }
+
+    /// A [`FileError::Content`], for `map_err`.
+    pub(crate) fn content<E: Display>(path: &Path) -> impl Fn(E) -> Self {
+        move |what| Self::Content { path: path.to_path_buf(), what: what.to_string() }
+    }
+
+    /// A [`FileError::Format`], for `map_err`.
+    pub(crate) fn format<E: Display>(path: &Path) -> impl Fn(E) -> Self {
+        move |what| Self::Format { path: path.to_path_buf(), what: what.to_string() }
     }
 }
 

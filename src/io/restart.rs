@@ -50,8 +50,7 @@ pub fn path(folder: &Path) -> PathBuf {
 /// [`FileError`]; then the previous state still exists.
 pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
     let path = path(folder);
-    let header = postcard::to_stdvec(&(FORMAT_VERSION, saved))
-        .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+    let header = postcard::to_stdvec(&(FORMAT_VERSION, saved)).map_err(FileError::format(&path))?;
     let mut bytes = [MAGIC.as_slice(), &header, &saved.state].concat();
     bytes.extend(fnv1a(&bytes).to_le_bytes());
     atomic::write(&path, &bytes)
@@ -64,7 +63,7 @@ pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
 pub fn load(folder: &Path) -> Result<Saved, FileError> {
     let path = path(folder);
     let bytes = std::fs::read(&path).map_err(FileError::read(&path))?;
-    decode(&bytes).map_err(|what| FileError::Content { path, what: format!("{what}; {START_AGAIN}") })
+    decode(&bytes).map_err(|what| FileError::content(&path)(format!("{what}; {START_AGAIN}")))
 }
 
 fn decode(bytes: &[u8]) -> Result<Saved, String> {

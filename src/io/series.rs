@@ -58,9 +58,8 @@ impl SeriesFile {
         self.journal.as_ref().map(Journal::mark).unwrap_or_default()
     }
 
-    fn format(&self, what: String) -> FileError {
-        let path = self.journal.as_ref().map_or(Path::new(NAME), Journal::path);
-        FileError::Format { path: path.to_path_buf(), what }
+    fn path(&self) -> &Path {
+        self.journal.as_ref().map_or(Path::new(NAME), Journal::path)
     }
 
     /// Adds a row, `time_s` first. A row at or before the last time replaces the later rows; minus zero becomes zero.
@@ -74,7 +73,7 @@ impl SeriesFile {
         if self.series.columns != columns || row.len() != columns.len() {
             let what =
                 format!("it has the columns {}, the new row has {}", self.series.columns.join(","), columns.join(","));
-            return Err(self.format(what));
+            return Err(FileError::format(self.path())(what));
         }
         let time = row.first().copied().unwrap_or(f64::NAN);
         // As it reads back: an infinite value does not exist either.
@@ -97,13 +96,12 @@ impl SeriesFile {
 
     /// The rows from `from` on, below the names of the columns if given.
     fn text(&self, columns: Option<&[String]>, from: usize) -> Result<Vec<u8>, FileError> {
-        let format = |what: String| self.format(what);
         let mut writer = csv::Writer::from_writer(Vec::new());
-        columns.map_or(Ok(()), |columns| writer.write_record(columns)).map_err(|error| format(error.to_string()))?;
+        columns.map_or(Ok(()), |columns| writer.write_record(columns)).map_err(FileError::format(self.path()))?;
         for row in &self.series.rows[from..] {
-            writer.write_record(row.iter().copied().map(number)).map_err(|error| format(error.to_string()))?;
+            writer.write_record(row.iter().copied().map(number)).map_err(FileError::format(self.path()))?;
         }
-        writer.into_inner().map_err(|error| format(error.to_string()))
+        writer.into_inner().map_err(FileError::format(self.path()))
     }
 }
 
@@ -127,17 +125,15 @@ pub(crate) fn read(path: &Path) -> Result<Series, FileError> {
 }
 
 fn parse(bytes: &[u8], path: &Path) -> Result<Series, FileError> {
-    let content = |what: String| FileError::Content { path: path.to_path_buf(), what };
     let mut reader = csv::Reader::from_reader(bytes);
-    let columns = reader.headers().map_err(|error| content(error.to_string()))?.iter().map(str::to_owned).collect();
+    let columns = reader.headers().map_err(FileError::content(path))?.iter().map(str::to_owned).collect();
     let mut rows = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| content(error.to_string()))?;
+        let record = record.map_err(FileError::content(path))?;
         let row: Result<Vec<f64>, _> =
             record.iter().map(|field| if field.is_empty() { Ok(f64::NAN) } else { field.parse() }).collect();
-        rows.push(row.map_err(|_| {
-            content(format!("expected numbers, found `{}`", record.iter().collect::<Vec<_>>().join(",")))
-        })?);
+        let what = || format!("expected numbers, found `{}`", record.iter().collect::<Vec<_>>().join(","));
+        rows.push(row.map_err(|_| FileError::content(path)(what()))?);
     }
     Ok(Series { columns, rows })
 }
