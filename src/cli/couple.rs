@@ -98,24 +98,19 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
         avalanche.events
     ));
 
-    let run = |case: &Path, overrides: &[String], folder: PathBuf| -> Result<Option<u8>, Failure> {
-        let source = source::load_case(Some(case), overrides)?;
-        let code = finish(&source, folder, Mode::New, arguments.threads)?;
-        Ok((code != DONE).then_some(code))
-    };
-    if let Some(code) = run(&arguments.network, &[stop(avalanche.rest_pressure_pa)], before.clone())? {
-        return Ok(code);
-    }
-    let overrides = [initial("sph.initial.network", &before)?, inlet];
-    if let Some(code) = run(&arguments.direct, &overrides, during.clone())? {
-        return Ok(code);
-    }
-    // The same avalanche by the network, for comparison.
-    if let Some(code) = run(&arguments.network, &[stop(driving)], same.clone())? {
-        return Ok(code);
-    }
-    if let Some(code) = run(&arguments.network, &[initial("network.initial", &during)?], after)? {
-        return Ok(code);
+    let parts = [
+        (&arguments.network, vec![stop(avalanche.rest_pressure_pa)], &before),
+        (&arguments.direct, vec![initial("sph.initial.network", &before)?, inlet], &during),
+        // The same avalanche by the network, for comparison.
+        (&arguments.network, vec![stop(driving)], &same),
+        (&arguments.network, vec![initial("network.initial", &during)?], &after),
+    ];
+    for (case, overrides, folder) in parts {
+        let source = source::load_case(Some(case), &overrides)?;
+        let code = finish(&source, folder.clone(), Mode::New, arguments.threads)?;
+        if code != DONE {
+            return Ok(code);
+        }
     }
     let [by_direct, by_network] = [read(&during)?, read(&same)?];
     let found = Coupled {
