@@ -5,7 +5,7 @@
 
 use std::fmt::Display;
 use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// A file or folder that cannot be read or written.
@@ -118,18 +118,12 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         make_folder(folder)?;
     }
     let temporary = temporary_name(path);
-    let done =
-        fs::File::create(&temporary).and_then(|file| fill(file, bytes)).and_then(|()| fs::rename(&temporary, path));
+    let done = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     if done.is_err() {
         // Best effort: the first error is the one to report.
         let _ = fs::remove_file(&temporary);
     }
     done.map_err(FileError::write(path))
-}
-
-fn fill(mut file: fs::File, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
-    file.flush()
 }
 
 /// Removes the temporary files that a killed program left in `folder` and the folders in it.
@@ -202,25 +196,17 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
-    #[cfg(target_os = "linux")]
     #[test]
-    fn a_full_disk_is_called_by_its_name() {
-        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let source = fill(full, &[0; 100]).unwrap_err();
-        let message = FileError::Write { path: "out/series.csv".into(), source }.to_string();
-        assert_eq!(
-            message,
-            "cannot write out/series.csv: the disk is full; free some space or choose another folder with --out, then continue with --resume"
-        );
-    }
-
-    #[test]
-    fn read_only_and_forbidden_places_are_called_by_their_names() {
+    fn causes_are_called_by_their_names_with_a_way_out() {
         for (kind, words) in [
+            (
+                ErrorKind::StorageFull,
+                "cannot write out/series.csv: the disk is full; free some space or choose another folder with --out, then continue with --resume",
+            ),
             (ErrorKind::ReadOnlyFilesystem, "the disk is read-only; choose a folder"),
             (ErrorKind::PermissionDenied, "permission denied; choose a folder"),
         ] {
-            let message = FileError::Folder { path: "out".into(), source: kind.into() }.to_string();
+            let message = FileError::Write { path: "out/series.csv".into(), source: kind.into() }.to_string();
             assert!(message.contains(words), "{message}");
         }
     }

@@ -49,12 +49,11 @@ pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
         let ticks = logarithmic_ticks(&range);
         range.log_scale().with_key_points(ticks)
     };
-    let content = (map, traces.as_slice());
     let drawn = match (diagram.x.logarithmic, diagram.y.logarithmic) {
-        (false, false) => draw(&mut text, diagram, content, x, y),
-        (true, false) => draw(&mut text, diagram, content, log(x), y),
-        (false, true) => draw(&mut text, diagram, content, x, log(y)),
-        (true, true) => draw(&mut text, diagram, content, log(x), log(y)),
+        (false, false) => draw(&mut text, diagram, map, &traces, x, y),
+        (true, false) => draw(&mut text, diagram, map, &traces, log(x), y),
+        (false, true) => draw(&mut text, diagram, map, &traces, x, log(y)),
+        (true, true) => draw(&mut text, diagram, map, &traces, log(x), log(y)),
     };
     drawn.map_err(|error| DiagramError { name: diagram.name, why: error.to_string() })?;
     Ok(Some(text))
@@ -112,7 +111,8 @@ fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
 fn draw<'a>(
     text: &'a mut String,
     diagram: &Diagram,
-    (map, traces): (Option<&Map>, &[Trace]),
+    map: Option<&Map>,
+    traces: &[Trace],
     x: impl NumberAxis,
     y: impl NumberAxis,
 ) -> Result<(), DrawingError<'a>> {

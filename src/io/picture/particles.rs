@@ -36,9 +36,9 @@ pub(super) fn particle_picture(
     let mut canvas = Canvas::new(WIDTH, height)?;
     canvas.rectangle(view.corner, view.size, SOLID);
     fluids(&mut canvas, &view, snapshot, spacing);
-    strokes(&mut canvas, &view, outline, (2.5, OUTLINE), &[Vec2::zeros()]);
+    strokes(&mut canvas, &view, outline, 2.5, OUTLINE, &[Vec2::zeros()]);
     if let Some(interface) = &snapshot.interface {
-        strokes(&mut canvas, &view, interface, (3.5, INTERFACE), &periods(frame));
+        strokes(&mut canvas, &view, interface, 3.5, INTERFACE, &periods(frame));
     }
     view.frame(&mut canvas);
     // A geometry has no time.
@@ -98,7 +98,7 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
 }
 
 /// Lines, translated by each of `shifts` in m.
-fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, (width, color): (f32, Rgb), shifts: &[Vec2]) {
+fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, color: Rgb, shifts: &[Vec2]) {
     for line in &lines.lines {
         let points = || line.iter().filter_map(|&i| lines.points.get(i as usize));
         shifts.iter().for_each(|shift| canvas.polyline(points().map(|&x| view.pixel(x + shift)), width, color));
