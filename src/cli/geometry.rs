@@ -25,7 +25,7 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     let stages = Stages::of(count);
     let periodic = arguments.periodic.map(PeriodicAxes::along);
     let shapes =
-        source::load_shapes(&arguments.file, &arguments.import.options(), (periodic, arguments.depth), |stage| {
+        source::load_shapes(&arguments.file, &arguments.import.options(), periodic, arguments.depth, |stage| {
             stages.at(stage)
         })?;
     let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);

@@ -100,7 +100,8 @@ pub(crate) fn valid_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(),
 pub(crate) fn load_shapes(
     path: &Path,
     options: &Options,
-    (periodic, depth): (Option<[bool; 2]>, Option<f64>),
+    periodic: Option<[bool; 2]>,
+    depth: Option<f64>,
     at: impl Fn(&'static str),
 ) -> Result<Shapes, Failure> {
     at("reading and checking the shapes");

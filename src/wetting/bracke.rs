@@ -19,8 +19,4 @@ impl WettingModel for Bracke {
     fn angle(&self, line: &LineState) -> f64 {
         line.angle_by_change_of_cosine(self.static_angle(), 2.0 * line.capillary_number().abs().sqrt())
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }

@@ -26,8 +26,4 @@ impl WettingModel for CoxVoinov {
         let cube = self.static_angle().powi(3) + 9.0 * line.capillary_number() * decades;
         cube.max(0.0).cbrt().min(PI)
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }

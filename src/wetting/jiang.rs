@@ -19,8 +19,4 @@ impl WettingModel for Jiang {
         let change = (4.96 * line.capillary_number().abs().powf(0.702)).tanh();
         line.angle_by_change_of_cosine(self.static_angle(), change)
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }

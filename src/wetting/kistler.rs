@@ -23,10 +23,6 @@ impl WettingModel for Kistler {
     fn angle(&self, line: &LineState) -> f64 {
         hoffman((line.capillary_number() + shift(self.static_angle())).max(0.0))
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }
 
 /// f_H, increasing from 0 to π.
