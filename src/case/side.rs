@@ -60,4 +60,19 @@ impl Sides {
     pub(crate) fn each(&self) -> [Side; 4] {
         [self.left, self.right, self.bottom, self.top]
     }
+
+    /// Whether the domain is periodic along x and y.
+    pub(crate) fn periodic(&self) -> [bool; 2] {
+        [self.left, self.bottom].map(|side| side == Side::Periodic)
+    }
+
+    /// Which sides are walls.
+    pub(crate) fn walls(&self) -> [bool; 4] {
+        self.each().map(|side| side == Side::Wall)
+    }
+
+    /// Which sides are inlets and outlets.
+    pub(crate) fn open(&self) -> [bool; 4] {
+        self.each().map(|side| matches!(side, Side::Inlet | Side::Outlet))
+    }
 }

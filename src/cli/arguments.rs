@@ -5,9 +5,6 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::case::SideName;
-use crate::case::network::RawProcess;
-use crate::input::tables::Words;
 use clap_complete::Shell;
 
 use super::compare::CompareArguments;
@@ -16,6 +13,9 @@ use super::import_arguments::ImportArguments;
 use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
+use crate::case::SideName;
+use crate::case::network::RawProcess;
+use crate::input::tables::Words;
 
 /// Exit codes, as in the help.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \
@@ -49,11 +49,22 @@ pub(crate) enum Command {
     /// List the models with their references
     List,
     /// Print the JSON schema of a case file
-    Schema(SchemaArguments),
+    Schema {
+        /// Print the schema of a study file
+        #[arg(long)]
+        study: bool,
+    },
     /// Print a completion script for a shell
-    Completions(CompletionArguments),
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
     /// Print the manual page, or write those of all commands
-    Man(ManArguments),
+    Man {
+        /// Folder for the pages of all commands: meniscus.1, meniscus-run.1, ...
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Extract pores and throats of a shape file, and displace one fluid by another in them
     #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
     Network(NetworkArguments),
@@ -259,27 +270,4 @@ pub(crate) enum PackPeriodic {
     Y,
     /// Along both
     Xy,
-}
-
-/// `schema`.
-#[derive(Debug, Args)]
-pub(crate) struct SchemaArguments {
-    /// Print the schema of a study file
-    #[arg(long)]
-    pub(crate) study: bool,
-}
-
-/// `man`.
-#[derive(Debug, Args)]
-pub(crate) struct ManArguments {
-    /// Folder for the pages of all commands: meniscus.1, meniscus-run.1, ...
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-}
-
-/// `completions`.
-#[derive(Debug, Args)]
-pub(crate) struct CompletionArguments {
-    /// The shell
-    pub(crate) shell: Shell,
 }

@@ -44,7 +44,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
     let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), mode);
     let claim = if arguments.resume { folder::reopen(&out, &out.join(DIRECT_RUN)) } else { folder::create(&out) };
-    let _claim = claim.map_err(|error| Failure::new(USAGE, &error))?;
+    let _claim = claim.map_err(Failure::with(USAGE))?;
     tell(format_args!("{} | {} -> {}", network.case.title, direct.case.title, out.display()));
     let pair = Pair { network: &network.case, direct: &direct.case, records: arguments.records.get() };
     let task = Task { pair, resolved: &direct.resolved, folder: &out, mode };
@@ -64,7 +64,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
         say(format_args!("interrupted; the same command with --out {} --resume continues it", out.display()));
         return Ok(INTERRUPTED);
     };
-    write(&found, &out).map_err(|error| Failure::new(USAGE, &error))?;
+    write(&found, &out).map_err(Failure::with(USAGE))?;
     summary(&found);
     say(format_args!("  page        {}", out.join(PAGE).display()));
     Ok(DONE)

@@ -11,7 +11,7 @@ use super::run::{finish, new_folder};
 use super::source;
 use crate::case::network::state::NetworkState;
 use crate::case::{Case, Drive, Model, SIDES, Side};
-use crate::io::{FileError, atomic};
+use crate::io::atomic;
 use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find, state_at_end};
 use crate::run::execute::Mode;
 use crate::run::folder;
@@ -90,7 +90,7 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let inlet = inlet_pressure(&direct, avalanche.inlet, direction * driving)?;
     source::load_started(&arguments.direct, std::slice::from_ref(&inlet), &start)?;
     let out = new_folder(arguments.out.as_deref(), &format!("{name}-couple"), Mode::New);
-    let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
+    let _claim = folder::create(&out).map_err(Failure::with(USAGE))?;
     let [before, during, same, after] = ["1-network", "2-direct", "2-network", "3-network"].map(|part| out.join(part));
     tell(format_args!(
         "the avalanche begins at {} Pa and has {} events",
@@ -98,24 +98,19 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
         avalanche.events
     ));
 
-    let run = |case: &Path, overrides: &[String], folder: PathBuf| -> Result<Option<u8>, Failure> {
-        let source = source::load_case(Some(case), overrides)?;
-        let code = finish(&source, folder, Mode::New, arguments.threads)?;
-        Ok((code != DONE).then_some(code))
-    };
-    if let Some(code) = run(&arguments.network, &[stop(avalanche.rest_pressure_pa)], before.clone())? {
-        return Ok(code);
-    }
-    let overrides = [initial("sph.initial.network", &before)?, inlet];
-    if let Some(code) = run(&arguments.direct, &overrides, during.clone())? {
-        return Ok(code);
-    }
-    // The same avalanche by the network, for comparison.
-    if let Some(code) = run(&arguments.network, &[stop(driving)], same.clone())? {
-        return Ok(code);
-    }
-    if let Some(code) = run(&arguments.network, &[initial("network.initial", &during)?], after)? {
-        return Ok(code);
+    let parts = [
+        (&arguments.network, vec![stop(avalanche.rest_pressure_pa)], &before),
+        (&arguments.direct, vec![initial("sph.initial.network", &before)?, inlet], &during),
+        // The same avalanche by the network, for comparison.
+        (&arguments.network, vec![stop(driving)], &same),
+        (&arguments.network, vec![initial("network.initial", &during)?], &after),
+    ];
+    for (case, overrides, folder) in parts {
+        let source = source::load_case(Some(case), &overrides)?;
+        let code = finish(&source, folder.clone(), Mode::New, arguments.threads)?;
+        if code != DONE {
+            return Ok(code);
+        }
     }
     let [by_direct, by_network] = [read(&during)?, read(&same)?];
     let found = Coupled {
@@ -124,16 +119,15 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
         same_elements: same_elements(&by_direct, &by_network),
         avalanche,
     };
-    let json = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
-    let unwritten = |error: FileError| Failure::new(USAGE, &error);
-    atomic::write(&out.join("couple.json"), (json + "\n").as_bytes()).map_err(unwritten)?;
+    let json = serde_json::to_string_pretty(&found).map_err(Failure::with(BUG))?;
+    atomic::write(&out.join("couple.json"), (json + "\n").as_bytes()).map_err(Failure::with(USAGE))?;
     summary(&found, &out);
     Ok(DONE)
 }
 
 /// `key` set to the final state of the run in a folder.
 fn initial(key: &str, folder: &Path) -> Result<String, Failure> {
-    let path = std::path::absolute(folder.join("at-end.json")).map_err(|error| Failure::new(USAGE, &error))?;
+    let path = std::path::absolute(folder.join("at-end.json")).map_err(Failure::with(USAGE))?;
     Ok(format!("{key}={}", toml::Value::String(path.to_string_lossy().into_owned())))
 }
 

@@ -9,7 +9,7 @@ use super::arguments::{Arguments, Command};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{print_error, say};
 use super::threads::pool;
-use super::{check, compare, couple, geometry, list, man, network, new, output, run, source, study, threads};
+use super::{check, compare, couple, geometry, list, man, network, new, output, run, study, threads};
 
 /// Reads the command line and executes it.
 pub fn main() -> ExitCode {
@@ -67,18 +67,18 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             list::list();
             Ok(DONE)
         }
-        Some(Command::Schema(arguments)) => {
-            let schema = if arguments.study { study::schema() } else { source::schema() };
-            say(schema.trim_end());
+        Some(Command::Schema { study }) => {
+            let schema = if study { crate::study::schema() } else { crate::case::schema() };
+            say(format!("{schema:#}").trim_end());
             Ok(DONE)
         }
-        Some(Command::Completions(arguments)) => {
+        Some(Command::Completions { shell }) => {
             let mut script = Vec::new();
-            clap_complete::generate(arguments.shell, &mut Arguments::command(), "meniscus", &mut script);
+            clap_complete::generate(shell, &mut Arguments::command(), "meniscus", &mut script);
             say(String::from_utf8_lossy(&script).trim_end());
             Ok(DONE)
         }
-        Some(Command::Man(arguments)) => man::man(&arguments),
+        Some(Command::Man { out }) => man::man(out.as_deref()),
         Some(Command::Network(arguments)) => network::network(&arguments),
         Some(Command::Compare(arguments)) => compare::compare(&arguments),
         Some(Command::Couple(arguments)) => couple::couple(&arguments),

@@ -1,5 +1,7 @@
 //! Exit codes, and the failures that lead to them.
 
+use std::fmt::Display;
+
 use miette::Diagnostic;
 
 use super::output::red;
@@ -30,8 +32,13 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// A failure with its error, in one line.
-    pub(crate) fn new(code: u8, error: &dyn std::fmt::Display) -> Self {
+    pub(crate) fn new(code: u8, error: impl Display) -> Self {
         Self { code, message: format!("{}: {error}", red("error")) }
+    }
+
+    /// [`Failure::new`], for `map_err`.
+    pub(crate) fn with<E: Display>(code: u8) -> impl Fn(E) -> Self {
+        move |error| Self::new(code, error)
     }
 
     /// A mistake in a case or shape file, with its location.

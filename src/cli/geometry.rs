@@ -25,7 +25,7 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     let stages = Stages::of(count);
     let periodic = arguments.periodic.map(PeriodicAxes::along);
     let shapes =
-        source::load_shapes(&arguments.file, &arguments.import.options(), (periodic, arguments.depth), |stage| {
+        source::load_shapes(&arguments.file, &arguments.import.options(), periodic, arguments.depth, |stage| {
             stages.at(stage)
         })?;
     let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);
@@ -51,19 +51,15 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
 }
 
 fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
-    let bug = |error: &dyn std::fmt::Display| Failure::new(BUG, error);
     let files = [
-        ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(|error| bug(&error))?),
-        ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(|error| bug(&error))?),
-        (
-            "picture.png",
-            picture(&pore(shapes), &shapes.outline, title, None).map_err(|error| Failure::new(USAGE, &error))?,
-        ),
+        ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(Failure::with(BUG))?),
+        ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(Failure::with(BUG))?),
+        ("picture.png", picture(&pore(shapes), &shapes.outline, title, None).map_err(Failure::with(USAGE))?),
     ];
     files
         .iter()
         .try_for_each(|(name, content)| atomic::write(&folder.join(name), content))
-        .map_err(|error| Failure::new(USAGE, &error))
+        .map_err(Failure::with(USAGE))
 }
 
 /// The nodes of the grid as points, with those in the pore marked.
@@ -75,36 +71,4 @@ fn pore(shapes: &Shapes) -> Snapshot<'static> {
     let phase = (0..points.len()).map(|i| if is_pore(i) { PORE } else { SOLID }).collect();
     let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phase) }];
     Snapshot { time: 0.0, step: 0, particles: Cloud { points: points.into(), fields }, grid: None, interface: None }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::snapshot::{Grid, Lines};
-
-    #[test]
-    fn outline_distance_and_picture_of_a_geometry_are_written() {
-        let distance = (0..30 * 20).map(|i| f64::from(i % 30) * 1.0e-6 - 1.0e-5).collect::<Vec<_>>();
-        let distance = Field { name: "wall-distance", unit: "m", values: Values::Scalar(distance.into()) };
-        let outline = Lines {
-            points: vec![Vec2::new(1.0e-5, 0.0), Vec2::new(1.0e-5, 2.0e-5)].into(),
-            lines: vec![vec![0, 1]],
-            fields: Vec::new(),
-        };
-        let distance =
-            Grid { origin: Vec2::zeros(), spacing: Vec2::repeat(1.0e-6), counts: [30, 20], fields: vec![distance] };
-        let spec = crate::geometry::spec::GeometrySpec {
-            min: [0.0; 2],
-            max: [1.0; 2],
-            solid: Default::default(),
-            shapes: Vec::new(),
-        };
-        let shapes = Shapes { outline, distance, measures: Vec::new(), sides: None, spec, depth: None };
-        let folder = tempfile::tempdir().unwrap();
-        write(folder.path(), &shapes, "half a plane").unwrap();
-        let mut names: Vec<_> =
-            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        names.sort();
-        assert_eq!(names, ["distance.vtu", "picture.png", "solid.vtu"]);
-    }
 }

@@ -5,16 +5,16 @@ use std::path::Path;
 use clap::CommandFactory;
 use clap_mangen::Man;
 
-use super::arguments::{Arguments, ManArguments};
+use super::arguments::Arguments;
 use super::exit::{DONE, Failure, USAGE};
 use super::output::say;
 use crate::io::atomic;
 
 /// Prints the page of the program, or writes it with those of all commands into a folder.
-pub(crate) fn man(arguments: &ManArguments) -> Result<u8, Failure> {
+pub(crate) fn man(out: Option<&Path>) -> Result<u8, Failure> {
     let mut program = Arguments::command();
     program.build();
-    let Some(folder) = &arguments.out else {
+    let Some(folder) = out else {
         say(page(&program)?.trim_end());
         return Ok(DONE);
     };
@@ -27,7 +27,7 @@ pub(crate) fn man(arguments: &ManArguments) -> Result<u8, Failure> {
 fn write(folder: &Path, command: &clap::Command) -> Result<usize, Failure> {
     let name = command.get_display_name().unwrap_or_else(|| command.get_name());
     let file = folder.join(format!("{name}.1"));
-    atomic::write(&file, page(command)?.as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
+    atomic::write(&file, page(command)?.as_bytes()).map_err(Failure::with(USAGE))?;
     let below = command.get_subcommands().filter(|below| below.get_name() != "help");
     below.map(|below| write(folder, below)).sum::<Result<usize, _>>().map(|count| count + 1)
 }
@@ -35,6 +35,6 @@ fn write(folder: &Path, command: &clap::Command) -> Result<usize, Failure> {
 /// The page of a command in roff.
 fn page(command: &clap::Command) -> Result<String, Failure> {
     let mut text = Vec::new();
-    Man::new(command.clone()).render(&mut text).map_err(|error| Failure::new(USAGE, &error))?;
+    Man::new(command.clone()).render(&mut text).map_err(Failure::with(USAGE))?;
     Ok(String::from_utf8_lossy(&text).into_owned())
 }

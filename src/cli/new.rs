@@ -19,7 +19,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<u8, Failure> {
         return new_pack::new_pack(kind, arguments, &file);
     }
     let text = source::starter_case(arguments.depth)?;
-    atomic::write(&file, text.as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
+    atomic::write(&file, text.as_bytes()).map_err(Failure::with(USAGE))?;
     say(format_args!("wrote {0}; try: meniscus check {0}, then: meniscus run {0}", file.display()));
     Ok(DONE)
 }

@@ -25,19 +25,18 @@ const THROAT_LENGTH: f64 = 0.5;
 /// Generates the grains, writes them, and prints porosity, smallest gap and whether the pore space percolates.
 pub(crate) fn new_pack(kind: PackKind, arguments: &NewArguments, file: &Path) -> Result<u8, Failure> {
     let (depth, arguments) = (arguments.depth, &arguments.pack);
-    let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
     // The command line requires two numbers.
     let size = [arguments.size.first().copied().unwrap_or(0.0), arguments.size.get(1).copied().unwrap_or(0.0)];
     let region = [[0.0; 2], size];
-    let (spec, discs, periodic) = shapes(kind, arguments, region).map_err(|error| bad(&error))?;
-    let geometry = Geometry::new(&spec).map_err(|error| bad(&error))?.with_periodic(periodic);
+    let (spec, discs, periodic) = shapes(kind, arguments, region).map_err(Failure::with(BAD_INPUT))?;
+    let geometry = Geometry::new(&spec).map_err(Failure::with(BAD_INPUT))?.with_periodic(periodic);
     valid_depth(depth, &spec)?;
     let comment = format!("# {}\n", std::env::args().skip(1).collect::<Vec<_>>().join(" "));
     let mut text = comment.into_bytes();
     text.extend(
-        export::write(&spec, Format::Toml, Beside { depth, ..Beside::default() }).map_err(|error| bad(&error))?,
+        export::write(&spec, Format::Toml, Beside { depth, ..Beside::default() }).map_err(Failure::with(BAD_INPUT))?,
     );
-    atomic::write(file, &text).map_err(|error| Failure::new(USAGE, &error))?;
+    atomic::write(file, &text).map_err(Failure::with(USAGE))?;
     say(format_args!("wrote {} with {} discs, {} shapes", file.display(), discs.len(), spec.shapes.len()));
     say(format_args!("porosity      {}", readable(geometry.porosity().value)));
     let gap = smallest_gap(&discs, region, periodic);

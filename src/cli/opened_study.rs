@@ -71,7 +71,7 @@ pub(crate) fn each(all: &[Opened], mut one: impl FnMut(&Opened) -> Result<u8, Fa
 }
 
 fn program(study: &Path) -> Result<Program, Failure> {
-    let path = std::env::current_exe().map_err(|error| Failure::new(BUG, &error))?;
+    let path = std::env::current_exe().map_err(Failure::with(BUG))?;
     Ok(Program { path, study: study.to_path_buf() })
 }
 
@@ -84,7 +84,7 @@ pub(crate) fn cores(arguments: &CoresArguments) -> Cores {
 
 /// Writes and prints the report; the exit code is the status of the study.
 pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
-    let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
+    let written = report(&opened.study, &opened.runs, &opened.folder).map_err(Failure::with(USAGE))?;
     Ok(print_report(opened, &written))
 }
 

@@ -1,5 +1,6 @@
 //! Progress of a run on standard error: a bar on a terminal, else a line now and then.
 
+use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -27,7 +28,7 @@ pub(crate) struct ProgressDisplay {
 impl ProgressDisplay {
     /// A display that starts now.
     pub(crate) fn new() -> Self {
-        let bar = console_bar();
+        let bar = console_bar(Some(LENGTH), "{bar:30} {percent:>3} %  {msg}");
         Self { bar, begun: Instant::now(), shown: Instant::now(), from: None }
     }
 
@@ -72,14 +73,13 @@ impl ProgressDisplay {
     }
 }
 
-fn console_bar() -> Option<ProgressBar> {
-    use std::io::IsTerminal;
+/// A bar on standard error, if that is a terminal and not to be quiet.
+pub(super) fn console_bar(length: Option<u64>, template: &str) -> Option<ProgressBar> {
     if is_quiet() || !std::io::stderr().is_terminal() {
         return None;
     }
-    let bar = ProgressBar::with_draw_target(Some(LENGTH), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").ok()?;
-    bar.set_style(style.progress_chars("━━─"));
+    let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
+    bar.set_style(ProgressStyle::with_template(template).ok()?.progress_chars("━━─"));
     Some(bar)
 }
 

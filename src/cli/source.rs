@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
-use crate::case::{self, NetworkOptions};
+use crate::case::{self, NetworkOptions, SIDES};
 use crate::geometry::import::{Imported, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
@@ -100,7 +100,8 @@ pub(crate) fn valid_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(),
 pub(crate) fn load_shapes(
     path: &Path,
     options: &Options,
-    (periodic, depth): (Option<[bool; 2]>, Option<f64>),
+    periodic: Option<[bool; 2]>,
+    depth: Option<f64>,
     at: impl Fn(&'static str),
 ) -> Result<Shapes, Failure> {
     at("reading and checking the shapes");
@@ -135,7 +136,7 @@ pub(crate) fn load_shapes(
             if !problems.is_empty() {
                 return Err(Failure::new(BAD_INPUT, &GeometryError::Invalid(problems)));
             }
-            let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+            let geometry = Geometry::new(&spec).map_err(Failure::with(BAD_INPUT))?;
             (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec, depth)
         }
     };
@@ -153,7 +154,7 @@ pub(crate) fn load_shapes(
 /// The kind of each side, as far as the geometry has it.
 fn kinds_of_sides(geometry: &Geometry) -> String {
     let [x, y] = geometry.periodic();
-    let names = ["left", "right", "bottom", "top"].into_iter().zip([x, x, y, y]).zip(geometry.wall_sides());
+    let names = SIDES.into_iter().zip([x, x, y, y]).zip(geometry.wall_sides());
     let kinds = names.map(|((name, is_periodic), is_wall)| match (is_periodic, is_wall) {
         (true, _) => format!("{name} periodic"),
         (_, true) => format!("{name} wall"),
@@ -202,9 +203,4 @@ fn of_chip(geometry: &Geometry, depth: f64) -> [Measure; 4] {
 /// The commented starter case, of a chip if there is a `depth` in m.
 pub(crate) fn starter_case(depth: Option<f64>) -> Result<String, Failure> {
     depth.map_or_else(|| Ok(case::starter_case().to_owned()), case::starter_of_chip).map_err(Failure::input)
-}
-
-/// The JSON schema of a case file.
-pub(crate) fn schema() -> String {
-    format!("{:#}", case::schema())
 }

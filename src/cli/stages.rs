@@ -7,9 +7,8 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
-use super::output::{duration, is_quiet, tell};
+use super::output::{duration, tell};
+use super::progress::console_bar;
 
 /// Nothing is printed before: most files are measured sooner.
 const SILENT: Duration = Duration::from_secs(2);
@@ -35,7 +34,7 @@ pub(super) struct Stages {
 impl Stages {
     /// Starts watching a command of `count` stages.
     pub(crate) fn of(count: usize) -> Self {
-        let bar = terminal();
+        let bar = console_bar(None, "{msg}");
         let show = move |line: &str, is_new: bool| match &bar {
             Some(bar) => bar.set_message(line.to_owned()),
             None if is_new => tell(line),
@@ -85,16 +84,6 @@ impl Drop for Stages {
         // The bar ends with its thread, which cannot fail.
         let _ = self.teller.take().map(JoinHandle::join);
     }
-}
-
-fn terminal() -> Option<ProgressBar> {
-    use std::io::IsTerminal;
-    if is_quiet() || !std::io::stderr().is_terminal() {
-        return None;
-    }
-    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-    bar.set_style(ProgressStyle::with_template("{msg}").ok()?);
-    Some(bar)
 }
 
 #[cfg(test)]

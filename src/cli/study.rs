@@ -57,11 +57,6 @@ fn print_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// The JSON schema of a study file.
-pub(crate) fn schema() -> String {
-    format!("{:#}", crate::study::schema())
-}
-
 /// The runs with their estimated cost.
 fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> Table {
     let mut heads = vec!["run".to_owned()];

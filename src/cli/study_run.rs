@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
         return one(arguments, study, index.get());
     }
     each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| {
-        let _claim = opened.folder.claim(Share::Alone).map_err(|error| Failure::new(USAGE, &error))?;
+        let _claim = opened.folder.claim(Share::Alone).map_err(Failure::with(USAGE))?;
         if let Some(ensemble) = &opened.ensemble {
             return study_samples::run(arguments, opened, ensemble);
         }
@@ -56,7 +56,7 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     let Opened { runs, folder, program, .. } = opened;
     let job = Work { runs, estimates: &estimates, folder, program, cores, memory, interrupt: &flag };
     let mut printer = ProgressPrinter { count: runs.len(), ended: 0 };
-    let ends = work(&job, &mut |event| printer.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
+    let ends = work(&job, &mut |event| printer.tell(event)).map_err(Failure::with(USAGE))?;
     if flag.load(Ordering::Relaxed) {
         tell("interrupted; the same command continues");
         return Ok(INTERRUPTED);
@@ -127,7 +127,7 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         jobs: arguments.cores.jobs.map(usize::from),
         options: &arguments.execution.sbatch,
     };
-    let job = submit(&array).map_err(|error| Failure::new(USAGE, &error))?;
+    let job = submit(&array).map_err(Failure::with(USAGE))?;
     say(format_args!("{} runs submitted as job array {job}", open.len()));
     say(
         "when they are done, `meniscus study report` writes the report, and the same command again submits what is left",

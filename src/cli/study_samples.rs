@@ -52,9 +52,9 @@ fn work(
             let mut teller = |done: usize| tell(format_args!("{done} of {all} samples done"));
             engine.run(&maps, folder, flag, &mut teller).map_err(of_samples)?;
         }
-        let figures = write(&engine, &maps, folder.root()).map_err(|error| Failure::new(USAGE, &error))?;
+        let figures = write(&engine, &maps, folder.root()).map_err(Failure::with(USAGE))?;
         let written = report_of(study, engine.results(), folder, &figures);
-        let written = written.map_err(|error| Failure::new(USAGE, &error))?;
+        let written = written.map_err(Failure::with(USAGE))?;
         if run.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             tell(format_args!("interrupted after {} of {all} samples; the same command continues", engine.count()));
             return Ok(INTERRUPTED);

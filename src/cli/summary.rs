@@ -166,27 +166,20 @@ mod tests {
         let never = std::sync::atomic::AtomicBool::new(false);
         let mut finished = execute(&job, &mut MockSolver::new(), &never, &mut Unwatched).unwrap();
         assert!(summary(&finished).contains("requested 40.0 deg, not measured\n"));
-        let none =
-            Reading { value: None, unit: "deg".into(), uncertainty: None, method: "no line".into(), not_at_rest: None };
-        finished.report.measures.insert(ANGLE.into(), none);
-        assert!(summary(&finished).contains("requested 40.0 deg, not measured (no line)\n"));
-        let angle = Reading {
-            value: Some(41.3),
-            unit: "deg".into(),
-            uncertainty: Some(1.2),
-            method: "circles fitted to the contour".into(),
-            not_at_rest: Some(Motion { rate: -7.0, unit: "deg/s".into() }),
-        };
-        finished.report.warnings.push("three particles fly alone".into());
-        finished.report.measures.insert(ANGLE.into(), angle);
-        let blobs = Reading {
-            value: Some(2.0),
-            unit: String::new(),
-            uncertainty: None,
-            method: "counted".into(),
+        let reading = |value, unit: &str, uncertainty, method: &str| Reading {
+            value,
+            unit: unit.into(),
+            uncertainty,
+            method: method.into(),
             not_at_rest: None,
         };
-        finished.report.measures.insert("blobs".into(), blobs);
+        finished.report.measures.insert(ANGLE.into(), reading(None, "deg", None, "no line"));
+        assert!(summary(&finished).contains("requested 40.0 deg, not measured (no line)\n"));
+        let mut angle = reading(Some(41.3), "deg", Some(1.2), "circles fitted to the contour");
+        angle.not_at_rest = Some(Motion { rate: -7.0, unit: "deg/s".into() });
+        finished.report.warnings.push("three particles fly alone".into());
+        finished.report.measures.insert(ANGLE.into(), angle);
+        finished.report.measures.insert("blobs".into(), reading(Some(2.0), "", None, "counted"));
         let text = summary(&finished);
         for words in [
             "Particles on circles\ndone at t = 1.000 s, step 50",

@@ -23,15 +23,13 @@ use crate::verify::subject::{Subject, SubjectError};
 /// Selects throats, writes the cases, runs them, and prints the results.
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
-    let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
-    let usage = |error: &dyn std::fmt::Display| Failure::new(USAGE, &error);
     let subject = Subject::new(&source.case).map_err(|error| match error {
         SubjectError::Setup(misfit) => source.refused(&misfit.into()).into(),
-        other => bad(&other),
+        other => Failure::new(BAD_INPUT, &other),
     })?;
     let choices: Vec<Choice> =
-        arguments.throats.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(|error| usage(&error))?;
-    let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
+        arguments.throats.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(Failure::with(USAGE))?;
+    let chosen = choose(&subject, &choices, arguments.seed).map_err(Failure::with(USAGE))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
     let given = if arguments.alike { [None; 2] } else { subject.fluids };
     let fluids = Fluids { given, tension: subject.tension, invading: subject.invading, chip: subject.chip };
@@ -39,7 +37,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let plan = Plan { throats: &planned, fluids: &fluids, spacings: &spacings, network: &name };
-    let written = plan::write(&folder, &plan).map_err(|error| usage(&error))?;
+    let written = plan::write(&folder, &plan).map_err(Failure::with(USAGE))?;
     for (index, why) in written.refused {
         planned[index].subdomain = Err(Impossible::Case(why));
     }
@@ -69,7 +67,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     }
     let rows: Vec<Row> = planned.iter().map(|one| row(one, &fluids, &spacings, &found)).collect();
     let title = format!("Throats of {name} by direct simulation");
-    let written = report::write(&folder, &subject, &rows, &spacings, &fluids, &title).map_err(|error| usage(&error))?;
+    let written = report::write(&folder, &subject, &rows, &spacings, &fluids, &title).map_err(Failure::with(USAGE))?;
     say(&title);
     if !rows.is_empty() {
         say(written.table.markdown().trim_end());

@@ -12,7 +12,7 @@ use crate::io::{atomic, vtk};
 pub(crate) fn formats(arguments: &WriteArguments) -> Result<Vec<Option<Format>>, Failure> {
     let is_vtk = |path: &std::path::Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtu"));
     let format = |path: &std::path::PathBuf| if is_vtk(path) { Ok(None) } else { Format::of(path).map(Some) };
-    arguments.write.iter().map(format).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
+    arguments.write.iter().map(format).collect::<Result<_, _>>().map_err(Failure::with(USAGE))
 }
 
 /// Writes each requested drawing in its format.
@@ -24,14 +24,13 @@ pub(crate) fn write_shapes(
     let beside = Beside { pixel: arguments.mask_pixel, depth: shapes.depth };
     for (path, format) in arguments.write.iter().zip(formats) {
         let bytes = match format {
-            Some(format) => export::write(&shapes.spec, format, beside).map_err(|error| Failure::new(USAGE, &error))?,
+            Some(format) => export::write(&shapes.spec, format, beside).map_err(Failure::with(USAGE))?,
             None => {
-                let geometry = Geometry::new(&shapes.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-                vtk::lines(&geometry.outline(), vtk::Compression::default())
-                    .map_err(|error| Failure::new(BUG, &error))?
+                let geometry = Geometry::new(&shapes.spec).map_err(Failure::with(BAD_INPUT))?;
+                vtk::lines(&geometry.outline(), vtk::Compression::default()).map_err(Failure::with(BUG))?
             }
         };
-        atomic::write(path, &bytes).map_err(|error| Failure::new(USAGE, &error))?;
+        atomic::write(path, &bytes).map_err(Failure::with(USAGE))?;
         say(format_args!("wrote {}", path.display()));
     }
     Ok(())

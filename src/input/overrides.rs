@@ -1,13 +1,12 @@
 //! `--set KEY=VALUE`: values merged into a file's tree before it is read.
 
-use std::ops::Range;
-
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 
 use super::error::{InputError, Mistake};
 use super::excerpt::{LONGEST_WORD, shortened};
 use super::path::{self, Step};
+use super::tree::Container;
 
 /// The overrides of a command line, in their order; a later one wins.
 #[derive(Debug, Clone, Default)]
@@ -66,33 +65,27 @@ impl Override {
     pub(super) fn put_into<'t>(&'t self, root: &mut Spanned<DeTable<'t>>, base: usize) -> Result<(), (String, String)> {
         let key_span = base..base + self.key_length;
         let value = self.value(base + self.key_length + 1);
-        let Some((Step::Key(first), rest)) = self.steps.split_first() else { return Ok(()) };
-        let Some((last, between)) = rest.split_last() else {
-            set_key(root.get_mut(), first, key_span, value);
-            return Ok(());
-        };
-        let mut node = enter_key(root.get_mut(), first, &key_span).ok_or_else(|| not_a_table(&self.steps[..1]))?;
-        for (depth, step) in between.iter().enumerate() {
-            let here = &self.steps[..=depth];
-            node = match (step, node.get_mut()) {
-                (Step::Key(key), DeValue::Table(table)) => {
-                    enter_key(table, key, &key_span).ok_or_else(|| not_a_table(here))?
+        let Some((last, parents)) = self.steps.split_last() else { return Ok(()) };
+        let mut here = Container::Table(root.get_mut());
+        for (depth, step) in parents.iter().enumerate() {
+            let node = match (step, here) {
+                (Step::Key(key), Container::Table(table)) => {
+                    let empty = || Spanned::new(key_span.clone(), DeValue::Table(DeTable::new()));
+                    table.entry(Spanned::new(key_span.clone(), key.clone().into())).or_insert_with(empty)
                 }
-                (Step::Index(index), DeValue::Array(array)) => {
-                    let count = array.len();
-                    array.get_mut(*index).ok_or_else(|| no_element(here, *index, count))?
-                }
-                (step, _) => return Err(wrong_step(here, step)),
+                (Step::Index(index), Container::Array(array)) => element(array, *index, &parents[..depth])?,
+                (step, _) => return Err(wrong_step(&parents[..depth], step)),
             };
+            here = Container::of(node.get_mut());
         }
-        let here = &self.steps[..self.steps.len() - 1];
-        match (last, node.get_mut()) {
-            (Step::Key(key), DeValue::Table(table)) => set_key(table, key, key_span, value),
-            (Step::Index(index), DeValue::Array(array)) => {
-                let count = array.len();
-                *array.get_mut(*index).ok_or_else(|| no_element(here, *index, count))? = value;
+        match (last, here) {
+            (Step::Key(key), Container::Table(table)) => {
+                // The map would keep the old key and with it the old location.
+                table.remove(key.as_str());
+                table.insert(Spanned::new(key_span, key.clone().into()), value);
             }
-            (step, _) => return Err(wrong_step(here, step)),
+            (Step::Index(index), Container::Array(array)) => *element(array, *index, parents)? = value,
+            (step, _) => return Err(wrong_step(parents, step)),
         }
         Ok(())
     }
@@ -111,28 +104,6 @@ impl Override {
     }
 }
 
-/// The value of a key, created as a table if absent.
-fn enter_key<'a, 't>(
-    table: &'a mut DeTable<'t>,
-    key: &str,
-    span: &Range<usize>,
-) -> Option<&'a mut Spanned<DeValue<'t>>> {
-    if !table.contains_key(key) {
-        set_key(table, key, span.clone(), Spanned::new(span.clone(), DeValue::Table(DeTable::new())));
-    }
-    table.get_mut(key)
-}
-
-fn set_key<'t>(table: &mut DeTable<'t>, key: &str, span: Range<usize>, value: Spanned<DeValue<'t>>) {
-    // The map would keep the old key and with it the old location.
-    table.remove(key);
-    table.insert(Spanned::new(span, key.to_owned().into()), value);
-}
-
-fn not_a_table(steps: &[Step]) -> (String, String) {
-    wrong_step(steps, &Step::Key(String::new()))
-}
-
 fn wrong_step(steps: &[Step], step: &Step) -> (String, String) {
     let what = match step {
         Step::Key(_) => "a table",
@@ -141,9 +112,15 @@ fn wrong_step(steps: &[Step], step: &Step) -> (String, String) {
     (format!("`{}` is not {what} in the file", path::write(steps)), "check the key against the file".to_owned())
 }
 
-fn no_element(steps: &[Step], index: usize, count: usize) -> (String, String) {
-    let path = path::write(steps);
-    (format!("`{path}` has {count} elements, there is no [{index}]"), "the first element is [0]".to_owned())
+/// The element of the array at the path `steps`.
+fn element<'a, 't>(
+    array: &'a mut DeArray<'t>,
+    index: usize,
+    steps: &[Step],
+) -> Result<&'a mut Spanned<DeValue<'t>>, (String, String)> {
+    let count = array.len();
+    let message = || format!("`{}` has {count} elements, there is no [{index}]", path::write(steps));
+    array.get_mut(index).ok_or_else(|| (message(), "the first element is [0]".to_owned()))
 }
 
 /// Prefix of the value in the line that is parsed.

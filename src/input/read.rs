@@ -15,7 +15,7 @@ use super::error::{InputError, Mistake};
 use super::explain::{Explained, explain};
 use super::path::{self, Step};
 use super::problem::Problem;
-use super::tree::{Container, container, find, node, node_span, span_at, value_at, visit};
+use super::tree::{Container, container, find, node, span_at, value_at, visit};
 
 /// Number of mistakes after which reading stops; a file with more of them is not a case file.
 const MOST_MISTAKES: usize = 50;
@@ -195,7 +195,7 @@ impl<'d> Reader<'d> {
 
     fn explain_at(&self, error: &toml::de::Error, steps: &[Step]) -> Explained {
         let mut explained = explain(error.message());
-        match node(self.root.get_ref(), steps) {
+        match node(self.root.get_ref(), steps).map(Spanned::get_ref) {
             Some(DeValue::Datetime(_)) => {
                 explained.message = explained.message.replace("found a table", "found a date")
             }
@@ -227,7 +227,7 @@ impl<'d> Reader<'d> {
 
     /// Puts a placeholder into a table for a missing key, so that the next missing key is reported, too.
     fn fill<T: DeserializeOwned>(&mut self, steps: &[Step], key: &str) -> bool {
-        let span = node_span(self.root.get_ref(), steps);
+        let span = node(self.root.get_ref(), steps).map(Spanned::span);
         for depth in 0..=DEEPEST_ARRAY {
             let Container::Table(table) = container(self.root.get_mut(), steps) else { return false };
             table.remove(key);
@@ -262,7 +262,7 @@ impl<'d> Reader<'d> {
     fn remove(&mut self, mut steps: Vec<Step>) -> bool {
         while let Some(Step::Index(_)) = steps.last() {
             let parent = &steps[..steps.len() - 1];
-            if let Some(DeValue::Array(array)) = node(self.root.get_ref(), parent)
+            if let Some(DeValue::Array(array)) = node(self.root.get_ref(), parent).map(Spanned::get_ref)
                 && array.iter().any(|value| value.get_ref().is_table())
             {
                 break;

@@ -10,20 +10,28 @@ use super::path::Step;
 /// Visitor of a path, the byte range of its key if it ends in one, and its value.
 type See<'s> = dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>) + 's;
 
-/// The byte range of the value at a key path or, if absent, that of the nearest table around it.
-pub(super) fn span_at(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
-    let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
-    let Some(mut node) = root.get(first.as_str()) else { return 0..0 };
-    for step in rest {
-        let next = match (step, node.get_ref()) {
-            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str()),
-            (Step::Index(index), DeValue::Array(array)) => array.get(*index),
+/// The nodes along a key path, as far as it leads.
+fn along<'a, 't>(root: &'a DeTable<'t>, steps: &'a [Step]) -> impl Iterator<Item = &'a Spanned<DeValue<'t>>> {
+    let mut here: Option<&Spanned<DeValue>> = None;
+    steps.iter().map_while(move |step| {
+        here = match (step, here.map(Spanned::get_ref)) {
+            (Step::Key(key), None) => root.get(key.as_str()),
+            (Step::Key(key), Some(DeValue::Table(table))) => table.get(key.as_str()),
+            (Step::Index(index), Some(DeValue::Array(array))) => array.get(*index),
             _ => None,
         };
-        let Some(next) = next else { break };
-        node = next;
-    }
-    node.span()
+        here
+    })
+}
+
+/// The byte range of the value at a key path or, if absent, that of the nearest table around it.
+pub(super) fn span_at(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
+    along(root, steps).last().map_or(0..0, Spanned::span)
+}
+
+/// The value at a path.
+pub(super) fn node<'a, 't>(root: &'a DeTable<'t>, steps: &'a [Step]) -> Option<&'a Spanned<DeValue<'t>>> {
+    along(root, steps).nth(steps.len().checked_sub(1)?)
 }
 
 /// A node with children.
@@ -33,49 +41,27 @@ pub(super) enum Container<'a, 't> {
     Neither,
 }
 
+impl<'a, 't> Container<'a, 't> {
+    /// The value as a node with children.
+    pub(super) fn of(value: &'a mut DeValue<'t>) -> Self {
+        match value {
+            DeValue::Table(table) => Self::Table(table),
+            DeValue::Array(array) => Self::Array(array),
+            _ => Self::Neither,
+        }
+    }
+}
+
 /// The table or array at a path.
 pub(super) fn container<'a, 't>(root: &'a mut DeTable<'t>, steps: &[Step]) -> Container<'a, 't> {
-    let Some((Step::Key(first), rest)) = steps.split_first() else { return Container::Table(root) };
-    let Some(mut here) = root.get_mut(first.as_str()) else { return Container::Neither };
-    for step in rest {
-        let next = match (step, here.get_mut()) {
-            (Step::Key(key), DeValue::Table(table)) => table.get_mut(key.as_str()),
-            (Step::Index(index), DeValue::Array(array)) => array.get_mut(*index),
+    steps.iter().fold(Container::Table(root), |here, step| {
+        let next = match (step, here) {
+            (Step::Key(key), Container::Table(table)) => table.get_mut(key.as_str()),
+            (Step::Index(index), Container::Array(array)) => array.get_mut(*index),
             _ => None,
         };
-        let Some(next) = next else { return Container::Neither };
-        here = next;
-    }
-    match here.get_mut() {
-        DeValue::Table(table) => Container::Table(table),
-        DeValue::Array(array) => Container::Array(array),
-        _ => Container::Neither,
-    }
-}
-
-/// The value at a path.
-pub(super) fn node<'a, 't>(root: &'a DeTable<'t>, steps: &[Step]) -> Option<&'a DeValue<'t>> {
-    let (Step::Key(first), rest) = steps.split_first()? else { return None };
-    let mut here = root.get(first.as_str())?;
-    for step in rest {
-        here = match (step, here.get_ref()) {
-            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str())?,
-            (Step::Index(index), DeValue::Array(array)) => array.get(*index)?,
-            _ => return None,
-        };
-    }
-    Some(here.get_ref())
-}
-
-/// The byte range of the value at a path.
-pub(super) fn node_span(root: &DeTable<'_>, steps: &[Step]) -> Option<Range<usize>> {
-    let mut span = None;
-    visit_entries(root, &mut Vec::new(), &mut |here, _, value| {
-        if here == steps {
-            span = Some(value.span());
-        }
-    });
-    span
+        next.map_or(Container::Neither, |next| Container::of(next.get_mut()))
+    })
 }
 
 /// The value at a path of a plain tree.

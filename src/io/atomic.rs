@@ -3,8 +3,9 @@
 //! If the program is killed, the old file or the new one remains. Data is not synced to the disk, so a power cut may still lose a file; what must survive that
 //! carries a checksum (see [`super::restart`]).
 
+use std::fmt::Display;
 use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// A file or folder that cannot be read or written.
@@ -62,6 +63,16 @@ impl FileError {
     pub(crate) fn read(path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::Read { path: path.to_path_buf(), source }
     }
+
+    /// A [`FileError::Content`], for `map_err`.
+    pub(crate) fn content<E: Display>(path: &Path) -> impl Fn(E) -> Self {
+        move |what| Self::Content { path: path.to_path_buf(), what: what.to_string() }
+    }
+
+    /// A [`FileError::Format`], for `map_err`.
+    pub(crate) fn format<E: Display>(path: &Path) -> impl Fn(E) -> Self {
+        move |what| Self::Format { path: path.to_path_buf(), what: what.to_string() }
+    }
 }
 
 /// The cause as text.
@@ -107,18 +118,12 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         make_folder(folder)?;
     }
     let temporary = temporary_name(path);
-    let done =
-        fs::File::create(&temporary).and_then(|file| fill(file, bytes)).and_then(|()| fs::rename(&temporary, path));
+    let done = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     if done.is_err() {
         // Best effort: the first error is the one to report.
         let _ = fs::remove_file(&temporary);
     }
     done.map_err(FileError::write(path))
-}
-
-fn fill(mut file: fs::File, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
-    file.flush()
 }
 
 /// Removes the temporary files that a killed program left in `folder` and the folders in it.
@@ -191,25 +196,17 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
-    #[cfg(target_os = "linux")]
     #[test]
-    fn a_full_disk_is_called_by_its_name() {
-        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let source = fill(full, &[0; 100]).unwrap_err();
-        let message = FileError::Write { path: "out/series.csv".into(), source }.to_string();
-        assert_eq!(
-            message,
-            "cannot write out/series.csv: the disk is full; free some space or choose another folder with --out, then continue with --resume"
-        );
-    }
-
-    #[test]
-    fn read_only_and_forbidden_places_are_called_by_their_names() {
+    fn causes_are_called_by_their_names_with_a_way_out() {
         for (kind, words) in [
+            (
+                ErrorKind::StorageFull,
+                "cannot write out/series.csv: the disk is full; free some space or choose another folder with --out, then continue with --resume",
+            ),
             (ErrorKind::ReadOnlyFilesystem, "the disk is read-only; choose a folder"),
             (ErrorKind::PermissionDenied, "permission denied; choose a folder"),
         ] {
-            let message = FileError::Folder { path: "out".into(), source: kind.into() }.to_string();
+            let message = FileError::Write { path: "out/series.csv".into(), source: kind.into() }.to_string();
             assert!(message.contains(words), "{message}");
         }
     }

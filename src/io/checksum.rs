@@ -2,32 +2,11 @@
 //!
 //! Source: Fowler, Noll, Vo, "The FNV non-cryptographic hash algorithm", IETF draft. The same on every machine and version.
 
-use serde::{Deserialize, Serialize};
-
 use crate::math;
-
-/// The hash of a stream of bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Fnv1a(u64);
-
-impl Default for Fnv1a {
-    fn default() -> Self {
-        Self(math::FNV1A_BASIS)
-    }
-}
-
-impl Fnv1a {
-    /// Adds the next bytes.
-    pub(crate) fn pass(&mut self, bytes: &[u8]) {
-        self.0 = math::fnv1a(self.0, bytes.iter().copied());
-    }
-}
 
 /// The FNV-1a hash of `bytes`.
 pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
-    let mut hash = Fnv1a::default();
-    hash.pass(bytes);
-    hash.0
+    math::fnv1a(math::FNV1A_BASIS, bytes.iter().copied())
 }
 
 #[cfg(test)]

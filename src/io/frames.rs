@@ -54,11 +54,10 @@ impl FrameList {
     /// Writes a file and records it.
     pub(crate) fn write(&mut self, time: f64, file: &str, content: &[u8]) -> Result<(), FileError> {
         atomic::write(&self.folder.join(file), content)?;
-        let format = |what: String| FileError::Format { path: path(&self.folder), what };
         let mut writer = csv::WriterBuilder::new().has_headers(self.mark().bytes == 0).from_writer(Vec::<u8>::new());
         let written = Written { time, file: file.to_owned(), bytes: content.len(), checksum: fnv1a(content) };
-        writer.serialize(written).map_err(|error| format(error.to_string()))?;
-        let line = writer.into_inner().map_err(|error| format(error.to_string()))?;
+        writer.serialize(written).map_err(FileError::format(self.journal.path()))?;
+        let line = writer.into_inner().map_err(FileError::format(self.journal.path()))?;
         self.journal.append(&line)
     }
 }
@@ -71,7 +70,7 @@ pub(crate) fn read(folder: &Path, mark: Mark) -> Result<Vec<Written>, FileError>
     let path = path(folder);
     let text = journal::read(&path, mark)?;
     let rows: Result<Vec<Written>, _> = csv::Reader::from_reader(text.as_slice()).deserialize().collect();
-    rows.map_err(|error| FileError::Content { path, what: error.to_string() })
+    rows.map_err(FileError::content(&path))
 }
 
 /// Checks that all files of a list exist with the content that was written.
@@ -92,7 +91,7 @@ pub(crate) fn check(folder: &Path, frames: &[Written]) -> Result<(), FileError> 
             } else {
                 format!("expected {} bytes, found {}", frame.bytes, found.len())
             };
-            return Err(FileError::Content { path, what });
+            return Err(FileError::content(&path)(what));
         }
     }
     Ok(())

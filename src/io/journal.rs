@@ -10,15 +10,21 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::atomic::{self, FileError};
-use super::checksum::Fnv1a;
+use crate::math::{FNV1A_BASIS, fnv1a};
 
 /// The extent of a file: its length in bytes and their checksum.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mark {
     /// In bytes.
     pub bytes: u64,
     /// Of all of them.
-    pub checksum: Fnv1a,
+    pub checksum: u64,
+}
+
+impl Default for Mark {
+    fn default() -> Self {
+        Self { bytes: 0, checksum: FNV1A_BASIS }
+    }
 }
 
 impl Mark {
@@ -31,7 +37,7 @@ impl Mark {
 
     fn pass(&mut self, bytes: &[u8]) {
         self.bytes += bytes.len() as u64;
-        self.checksum.pass(bytes);
+        self.checksum = fnv1a(self.checksum, bytes.iter().copied());
     }
 }
 
@@ -110,7 +116,7 @@ pub(crate) fn read(path: &Path, mark: Mark) -> Result<Vec<u8>, FileError> {
     if mark.bytes == 0 {
         return Ok(Vec::new());
     }
-    let content = |what: String| FileError::Content { path: path.to_path_buf(), what };
+    let content = FileError::content(path);
     let mut bytes = std::fs::read(path).map_err(FileError::read(path))?;
     let wanted = usize::try_from(mark.bytes).unwrap_or(usize::MAX);
     if bytes.len() < wanted {

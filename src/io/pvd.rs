@@ -4,7 +4,6 @@
 //! File numbers count the records, so a resumed run continues where it stopped; it rebuilds the file from the list of written files ([`super::frames`]).
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::atomic::{self, FileError};
@@ -15,44 +14,28 @@ use super::frames::{FrameList, Written};
 pub(crate) struct Collection {
     folder: PathBuf,
     name: String,
-    entries: Entries,
-}
-
-/// Times in s, and the lines of the `.pvd` that give them with their files.
-#[derive(Debug, Default)]
-struct Entries {
-    times: Vec<f64>,
-    lines: String,
-    /// Byte offset of each line.
-    begins: Vec<usize>,
-}
-
-impl Entries {
-    /// Drops all entries at or after `time`.
-    fn cut(&mut self, time: f64) {
-        while self.times.last().is_some_and(|&last| last >= time) {
-            self.times.pop();
-            self.lines.truncate(self.begins.pop().unwrap_or(0));
-        }
-    }
-
-    fn push(&mut self, time: f64, file: &str) {
-        self.times.push(time);
-        self.begins.push(self.lines.len());
-        // Writing to a string cannot fail.
-        let _ = writeln!(self.lines, "    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
-    }
+    /// Times in s, ascending, each with the line of the `.pvd` that gives it with its file.
+    entries: Vec<(f64, String)>,
 }
 
 impl Collection {
     /// The series in `folder` with the files `written` before; files of other series are ignored.
     pub(crate) fn new(folder: &Path, name: &str, written: &[Written]) -> Self {
-        let mut entries = Entries::default();
+        let mut collection = Self { folder: folder.to_path_buf(), name: name.to_owned(), entries: Vec::new() };
         for frame in written.iter().filter(|frame| series_of(frame) == name) {
-            entries.cut(frame.time);
-            entries.push(frame.time, &frame.file);
+            collection.cut(frame.time);
+            collection.push(frame.time, &frame.file);
         }
-        Self { folder: folder.to_path_buf(), name: name.to_owned(), entries }
+        collection
+    }
+
+    /// Drops all entries at or after `time`.
+    fn cut(&mut self, time: f64) {
+        self.entries.truncate(self.entries.partition_point(|(earlier, _)| *earlier < time));
+    }
+
+    fn push(&mut self, time: f64, file: &str) {
+        self.entries.push((time, format!("    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>\n")));
     }
 
     /// The `.pvd` file.
@@ -62,15 +45,16 @@ impl Collection {
 
     /// Writes the VTK file of `time` (s), lists it in `frames`, then writes the `.pvd` that includes it.
     pub(crate) fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
-        self.entries.cut(time);
-        let file = format!("{0}/{0}-{1:06}.vtu", self.name, self.entries.times.len());
+        self.cut(time);
+        let file = format!("{0}/{0}-{1:06}.vtu", self.name, self.entries.len());
         frames.write(time, &file, content)?;
-        self.entries.push(time, &file);
+        self.push(time, &file);
         self.write()
     }
 
     fn write(&self) -> Result<(), FileError> {
-        let text = [HEAD, &self.entries.lines, TAIL].concat();
+        let lines = self.entries.iter().map(|(_, line)| line.as_str());
+        let text: String = std::iter::once(HEAD).chain(lines).chain([TAIL]).collect();
         atomic::write(&self.path(), text.as_bytes())
     }
 }

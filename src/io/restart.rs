@@ -50,8 +50,7 @@ pub fn path(folder: &Path) -> PathBuf {
 /// [`FileError`]; then the previous state still exists.
 pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
     let path = path(folder);
-    let header = postcard::to_stdvec(&(FORMAT_VERSION, saved))
-        .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+    let header = postcard::to_stdvec(&(FORMAT_VERSION, saved)).map_err(FileError::format(&path))?;
     let mut bytes = [MAGIC.as_slice(), &header, &saved.state].concat();
     bytes.extend(fnv1a(&bytes).to_le_bytes());
     atomic::write(&path, &bytes)
@@ -64,7 +63,7 @@ pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
 pub fn load(folder: &Path) -> Result<Saved, FileError> {
     let path = path(folder);
     let bytes = std::fs::read(&path).map_err(FileError::read(&path))?;
-    decode(&bytes).map_err(|what| FileError::Content { path, what: format!("{what}; {START_AGAIN}") })
+    decode(&bytes).map_err(|what| FileError::content(&path)(format!("{what}; {START_AGAIN}")))
 }
 
 fn decode(bytes: &[u8]) -> Result<Saved, String> {
@@ -89,22 +88,13 @@ fn decode(bytes: &[u8]) -> Result<Saved, String> {
 mod tests {
     use super::*;
 
-    fn example() -> Saved {
-        let (series, frames) = (Mark::after(b"a"), Mark::after(b"b"));
-        Saved { case_hash: u64::MAX, time: 0.1 + 0.2, step: 7, series, frames, state: (0..=255).collect() }
-    }
-
     #[test]
-    fn a_saved_state_reads_back_with_the_same_bits() {
+    fn a_saved_state_reads_back_with_the_same_bits_and_is_refused_if_cut_short_anywhere_or_changed() {
         let folder = tempfile::tempdir().unwrap();
-        save(folder.path(), &example()).unwrap();
-        assert_eq!(load(folder.path()).unwrap(), example());
-    }
-
-    #[test]
-    fn a_state_cut_short_anywhere_or_changed_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        save(folder.path(), &example()).unwrap();
+        let (series, frames, state) = (Mark::after(b"a"), Mark::after(b"b"), (0..=255).collect());
+        let saved = Saved { case_hash: u64::MAX, time: 0.1 + 0.2, step: 7, series, frames, state };
+        save(folder.path(), &saved).unwrap();
+        assert_eq!(load(folder.path()).unwrap(), saved);
         let bytes = std::fs::read(path(folder.path())).unwrap();
         for length in 0..bytes.len() {
             assert!(decode(&bytes[..length]).is_err(), "{length} bytes were accepted");

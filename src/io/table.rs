@@ -13,8 +13,7 @@ pub fn write(folder: &Path, table: &Table) -> Result<(), FileError> {
 
 /// Writes the table as this file.
 pub(crate) fn write_at(path: &Path, table: &Table) -> Result<(), FileError> {
-    let text = text(table).map_err(|error| FileError::Format { path: path.to_path_buf(), what: error.to_string() })?;
-    atomic::write(path, &text)
+    atomic::write(path, &text(table).map_err(FileError::format(path))?)
 }
 
 fn text(table: &Table) -> Result<Vec<u8>, csv::Error> {

@@ -8,8 +8,7 @@ use serde::Serialize;
 use super::numbers::{Length, expected_speed};
 use super::setup;
 use super::trial::Trial;
-use crate::case::{Case, Model, Side, Sph};
-use crate::geometry::Geometry;
+use crate::case::{Case, Model, Sph};
 use crate::network;
 use crate::network::graph::Pores;
 
@@ -91,7 +90,7 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
     };
     let trial = trial.filter(|_| sph.is_some());
     let clock = Instant::now();
-    let (geometry, open) = sides(case)?;
+    let (geometry, open) = (setup::geometry(case).ok()?, case.model.sides()?.open());
     let network = network::extract(&geometry, open).ok()?;
     let pores = Pores::merged(&network, PERSISTENCE);
     let network_s = clock.elapsed().as_secs_f64();
@@ -127,18 +126,6 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
     };
     advice.sentence = sentence(&advice);
     Some(advice)
-}
-
-/// The geometry with its sides, and which of them are open.
-fn sides(case: &Case) -> Option<(Geometry, [bool; 4])> {
-    let sides = match &case.model {
-        Model::Sph(sph) => sph.sides,
-        Model::Network(network) => network.sides,
-        Model::ThinFilm(_) => return None,
-    };
-    let kinds = sides.each();
-    let open = kinds.map(|side| matches!(side, Side::Inlet | Side::Outlet));
-    Some((setup::geometry(case).ok()?, open))
 }
 
 fn numbers(case: &Case, sph: &Sph, pore: &'static str, radius: f64) -> PoreNumbers {

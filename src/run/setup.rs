@@ -44,31 +44,28 @@ impl SetupError {
 
 /// The solver of a case, in its initial state.
 pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
-    build_watched(case, &mut |_| {})
+    solver(case, true, &mut |_| {})
 }
 
 /// The solver of a case, in its initial state; `packed` receives the progress of the packing of particles, if there is one.
 pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
-    match &case.model {
-        Model::Sph(sph) => {
-            memory(case, sph)?;
-            let solver = sph::setup::build_watched(case, sph, packed)?;
-            Ok(Box::new(solver.measuring(benchmarks::requested_groups(&sph.measure))))
-        }
-        Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
-        Model::Network(network) => Ok(network::setup::build(case, network)?),
-    }
+    solver(case, true, packed)
 }
 
 /// The solver of a case that is about to restore a saved state: the particles are not packed.
 pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
+    solver(case, false, &mut |_| {})
+}
+
+fn solver(case: &Case, is_packed: bool, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
             memory(case, sph)?;
-            let solver = sph::setup::build_to_resume(case, sph)?;
+            let solver = sph::setup::solver(case, sph, is_packed, packed)?;
             Ok(Box::new(solver.measuring(benchmarks::requested_groups(&sph.measure))))
         }
-        Model::ThinFilm(_) | Model::Network(_) => build(case),
+        Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
+        Model::Network(network) => Ok(network::setup::build(case, network)?),
     }
 }
 
@@ -116,7 +113,7 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
 
 /// The domain of a case and its sides, for pictures; `None` for a film on a wall.
 pub(super) fn frame(case: &Case) -> Option<Frame> {
-    let sides = case.model.sides()?.each();
+    let sides = case.model.sides()?;
     let through = |side: Side| match side {
         Side::Inlet => Some(Through::In),
         Side::Outlet => Some(Through::Out),
@@ -124,8 +121,8 @@ pub(super) fn frame(case: &Case) -> Option<Frame> {
     };
     Some(Frame {
         bounds: [case.geometry.min, case.geometry.max],
-        open: sides.map(through),
-        periodic: [sides[0] == Side::Periodic, sides[2] == Side::Periodic],
+        open: sides.each().map(through),
+        periodic: sides.periodic(),
     })
 }
 

@@ -61,19 +61,7 @@ impl Cells {
 
     fn sort(&mut self, points: &[Vec2]) {
         let cell_of: Vec<u32> = points.par_iter().with_min_len(GRAIN).map(|&x| self.cell_of(x)).collect();
-        self.start = vec![0; self.counts[0] * self.counts[1] + 1];
-        for &cell in &cell_of {
-            self.start[cell as usize + 1] += 1;
-        }
-        for i in 1..self.start.len() {
-            self.start[i] += self.start[i - 1];
-        }
-        let mut next = self.start.clone();
-        self.order = vec![0; points.len()];
-        for (i, &cell) in cell_of.iter().enumerate() {
-            self.order[next[cell as usize] as usize] = i as u32;
-            next[cell as usize] += 1;
-        }
+        (self.start, self.order) = members(&cell_of, self.counts[0] * self.counts[1]);
         self.sorted = self.order.par_iter().with_min_len(GRAIN).map(|&i| points[i as usize]).collect();
     }
 
@@ -163,4 +151,22 @@ impl Cells {
         });
         whole.into_iter().chain(single.into_iter().flatten())
     }
+}
+
+/// The start of each of `count` groups in the list of their members, one more than groups, and the list; `group` has that of each member.
+pub(super) fn members(group: &[u32], count: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut start = vec![0; count + 1];
+    for &group in group {
+        start[group as usize + 1] += 1;
+    }
+    for i in 0..count {
+        start[i + 1] += start[i];
+    }
+    let mut next = start.clone();
+    let mut members = vec![0; group.len()];
+    for (i, &group) in group.iter().enumerate() {
+        members[next[group as usize] as usize] = i as u32;
+        next[group as usize] += 1;
+    }
+    (start, members)
 }

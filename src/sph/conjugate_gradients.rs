@@ -31,14 +31,8 @@ pub trait Unknown:
     /// Zero.
     const ZERO: Self;
 
-    /// Number of components.
-    const COMPONENTS: usize;
-
-    /// Component `k`.
-    fn component(&self, k: usize) -> f64;
-
-    /// The unknown with these components.
-    fn from_components(component: impl Fn(usize) -> f64) -> Self;
+    /// Its components.
+    fn components(&mut self) -> &mut [f64];
 
     /// The product; of vectors the inner product.
     fn times(&self, other: &Self) -> f64;
@@ -46,14 +40,9 @@ pub trait Unknown:
 
 impl Unknown for f64 {
     const ZERO: Self = 0.0;
-    const COMPONENTS: usize = 1;
 
-    fn component(&self, _: usize) -> f64 {
-        *self
-    }
-
-    fn from_components(component: impl Fn(usize) -> f64) -> Self {
-        component(0)
+    fn components(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
     }
 
     fn times(&self, other: &Self) -> f64 {
@@ -63,14 +52,9 @@ impl Unknown for f64 {
 
 impl Unknown for Vec2 {
     const ZERO: Self = Self::new(0.0, 0.0);
-    const COMPONENTS: usize = 2;
 
-    fn component(&self, k: usize) -> f64 {
-        self[k]
-    }
-
-    fn from_components(component: impl Fn(usize) -> f64) -> Self {
-        Self::new(component(0), component(1))
+    fn components(&mut self) -> &mut [f64] {
+        self.as_mut_slice()
     }
 
     fn times(&self, other: &Self) -> f64 {

@@ -34,6 +34,13 @@ impl Mirror {
         }
     }
 
+    /// The position of the image of a point (m).
+    pub(crate) fn position(&self, x: Vec2) -> Vec2 {
+        let mut image = x;
+        image[self.axis] = 2.0 * self.at - x[self.axis];
+        image
+    }
+
     /// The vector `v` reflected at the side: its normal component changes sign.
     pub(crate) fn reflect(&self, v: Vec2) -> Vec2 {
         let mut image = v;

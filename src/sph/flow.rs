@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use crate::math::Vec2;
-use crate::solver::{PartTime, StateError};
+use crate::solver::StateError;
 use crate::sph::bulk::BulkFields;
 use crate::sph::cells::Cells;
 use crate::sph::configuration::Configuration;
@@ -140,11 +140,6 @@ impl Flow {
     pub(crate) fn solving(&mut self) -> (View<'_, Fields>, &mut PressureSolve, &mut Work) {
         let Self { config, state, neighborhood, fields, pressure, work, .. } = self;
         (View { config, state, neighborhood, fields }, pressure, work)
-    }
-
-    /// Wall time by part in s.
-    pub(crate) fn part_times(&self) -> Vec<PartTime> {
-        PARTS.iter().zip(self.work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
     }
 
     /// Memory in bytes of pairs, matrix, hierarchy and fields.

@@ -14,20 +14,11 @@ pub(crate) type FlowAtRest = Box<dyn Fn() -> Flow + Send + Sync>;
 
 /// The flows with a frozen interface.
 pub(crate) struct FrozenInterface {
-    flows: [FlowAtRest; FLOWS],
+    /// The flows of the whole pore, of the wetting and of the non-wetting phase.
+    pub(crate) flows: [FlowAtRest; FLOWS],
 }
 
 impl FrozenInterface {
-    /// The flows of the whole pore, of the wetting and of the non-wetting phase.
-    pub(crate) fn new(flows: [FlowAtRest; FLOWS]) -> Self {
-        Self { flows }
-    }
-
-    /// The flow of the whole pore at time zero.
-    pub(crate) fn first(&self) -> Flow {
-        self.flows[0]()
-    }
-
     /// The flow of a stage at its start, with the time, step count and work of `before`, the end of the previous stage.
     pub(crate) fn flow(&self, stage: usize, before: &Flow) -> Flow {
         let mut flow = self.flows[stage.min(FLOWS - 1)]();

@@ -28,9 +28,7 @@ impl Images {
         for (k, mirror) in domain.mirrors.iter().enumerate() {
             for i in 0..points.len() {
                 if (points[i][mirror.axis] - mirror.at).abs() < support {
-                    let mut image = points[i];
-                    image[mirror.axis] = 2.0 * mirror.at - image[mirror.axis];
-                    points.push(image);
+                    points.push(mirror.position(points[i]));
                     let (source, via) =
                         if i < first { (i as u32, 0) } else { (images.source[i - first], images.via[i - first]) };
                     images.source.push(source);
@@ -50,13 +48,9 @@ impl Images {
     /// Position of index `b` in m, given those of the particles.
     #[inline]
     pub(crate) fn position(&self, b: usize, particles: &[Vec2]) -> Vec2 {
-        let mut x = particles[self.source(b)];
-        if b >= self.first {
-            for mirror in self.mirrors_of(self.via[b - self.first]) {
-                x[mirror.axis] = 2.0 * mirror.at - x[mirror.axis];
-            }
-        }
-        x
+        let x = particles[self.source(b)];
+        let Some(image) = b.checked_sub(self.first) else { return x };
+        self.mirrors_of(self.via[image]).fold(x, |x, mirror| mirror.position(x))
     }
 
     fn mirrors_of(&self, via: u8) -> impl Iterator<Item = &Mirror> {

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::analysis::blobs::{Blob, LINK, blobs};
+use crate::analysis::blobs::Blob;
 use crate::analysis::near_level::nodes_near_level;
 use crate::analysis::phases::{CapillaryPressure, PhaseAreas, PressureSamples, capillary_pressure};
 use crate::analysis::resample::{Samples, Stencils};
@@ -16,7 +16,7 @@ use crate::interface::wall::clip;
 use crate::math::Vec2;
 use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
-use crate::sph::unresolved::{ThinParts, small_pieces};
+use crate::sph::unresolved::{ThinParts, ganglia, small_pieces};
 
 /// Grid nodes beyond a wall side, so that the contour extends to the wall, where it is clipped.
 const MARGIN: usize = 2;
@@ -68,9 +68,7 @@ impl Observation {
             smoothing_length: flow.config.method.kernel.h,
             period: flow.config.domain.periods(),
         };
-        let is_wetting: Vec<bool> = color.iter().map(|c| *c > 0.5).collect();
-        let link = LINK * flow.config.method.spacing;
-        let wetting_blobs = blobs(samples.points, volumes, &is_wetting, link, samples.period);
+        let wetting_blobs = ganglia(flow, Phase::Wetting);
         Self {
             contact_lines: contact_lines(&interface, &wall_point, &settings),
             areas,

@@ -28,18 +28,3 @@ pub(crate) fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
 pub(crate) fn largest(n: usize, value: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
     (0..n).map(|a| (a, value(a))).reduce(|best, next| if next.1 > best.1 { next } else { best })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn totals_do_not_depend_on_the_number_of_threads() {
-        let value = |a: usize| (a as f64 * 0.37).sin() / (1.0 + a as f64);
-        let sum_with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| total(10_000, value))
-        };
-        assert_eq!(sum_with(1).to_bits(), sum_with(2).to_bits());
-    }
-}

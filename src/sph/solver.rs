@@ -7,9 +7,10 @@ use crate::interface::lengths::WallSample;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
-    Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
+    Measure, PartTime, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
+    Watched,
 };
-use crate::sph::flow::Flow;
+use crate::sph::flow::{Flow, PARTS};
 use crate::sph::frozen::FrozenInterface;
 use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability, relative, samples_of_chip};
 use crate::sph::observe::Observation;
@@ -83,7 +84,7 @@ impl SphSolver {
 
     /// A solver at time zero of the flows with a frozen interface, one after the other.
     pub(crate) fn beside(interface: FrozenInterface, surroundings: Surroundings) -> Self {
-        let first = interface.first();
+        let first = interface.flows[0]();
         Self { frozen: Some((interface, 0)), ..Self::new(first, surroundings) }
     }
 
@@ -292,7 +293,7 @@ impl Solver for SphSolver {
         Statistics {
             unknowns: self.flow.state.particles.len(),
             steps: work.steps,
-            parts: self.flow.part_times(),
+            parts: PARTS.iter().zip(work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect(),
             counts: vec![
                 ("fluid-particles", self.flow.state.particles.fluids as f64),
                 ("ppe-iterations-per-step", per_step(work.iterations)),

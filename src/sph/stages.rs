@@ -93,30 +93,33 @@ impl Stages {
 mod tests {
     use super::*;
 
+    fn turning() -> Stages {
+        Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap()
+    }
+
     #[test]
     fn the_force_turns_once_at_half_the_time() {
-        let stages = Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap();
         let halfway = 0.1 + 0.2 + 0.2 - f64::EPSILON;
         for (time, force) in [(0.0, [2.0, 0.0]), (0.4999, [2.0, 0.0]), (halfway, [0.0, 3.0]), (1.0, [0.0, 3.0])] {
-            assert_eq!(stages.force(time), Vec2::from(force), "at {time} s");
+            assert_eq!(turning().force(time), Vec2::from(force), "at {time} s");
         }
     }
 
     #[test]
     fn steps_land_on_the_turn_without_a_sliver() {
-        let stages = Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap();
-        assert_eq!((stages.stop(0.0, 0.3), stages.stop(0.3, 0.7), stages.stop(0.5, 0.7)), (0.3, 0.5, 0.7));
-        let almost = 0.5 - f64::EPSILON;
-        assert_eq!((stages.stop(0.3, 0.5 + f64::EPSILON), stages.stop(almost, 0.7)), (0.5 + f64::EPSILON, 0.7));
+        let (almost, hardly) = (0.5 - f64::EPSILON, 0.5 + f64::EPSILON);
+        for (time, until, stop) in
+            [(0.0, 0.3, 0.3), (0.3, 0.7, 0.5), (0.5, 0.7, 0.7), (0.3, hardly, hardly), (almost, 0.7, 0.7)]
+        {
+            assert_eq!(turning().stop(time, until), stop, "from {time} s");
+        }
     }
 
     #[test]
     fn a_force_along_one_axis_acts_all_the_time() {
         let stages = Stages::new(Vec2::new(0.0, -3.0), 1.0).unwrap();
-        assert_eq!(
-            (stages.axes(), stages.force(0.0), stages.force(0.9)),
-            (&[1][..], stages.force(0.1), stages.force(0.1))
-        );
+        assert_eq!(stages.axes(), [1]);
+        assert_eq!([0.0, 0.1, 0.9].map(|time| stages.force(time)), [Vec2::new(0.0, -3.0); 3]);
         assert_eq!(stages.stop(0.3, 0.7), 0.7);
         assert_eq!(Stages::new(Vec2::zeros(), 1.0), None);
     }
@@ -125,13 +128,13 @@ mod tests {
     fn a_force_that_is_repeated_begins_anew_at_each_third() {
         let stages = Stages::repeated(Vec2::new(0.0, 3.0), 3, 0.9).unwrap();
         assert_eq!([0.0, 0.29, 0.3, 0.6, 0.9].map(|time| stages.stage(time)), [0, 0, 1, 2, 2]);
-        assert_eq!((stages.force(0.0), stages.force(0.7)), (Vec2::new(0.0, 3.0), Vec2::new(0.0, 3.0)));
+        assert_eq!([0.0, 0.7].map(|time| stages.force(time)), [Vec2::new(0.0, 3.0); 2]);
         assert!((stages.stop(0.2, 0.5) - 0.3).abs() < 1e-12);
     }
 
     #[test]
     fn rows_belong_to_the_stage_that_they_end() {
-        let stages = Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap();
+        let stages = turning();
         let rows = [0.0, 0.25, 0.5, 0.75, 1.0].map(|time| vec![time]).to_vec();
         let series = Series { columns: vec!["time_s".into()], rows };
         let times = |stage| stages.last_rows(&series, stage).map(|rows| rows.map(|row| row[0]));

@@ -20,7 +20,7 @@ pub(crate) struct ThinParts {
 impl ThinParts {
     /// The thin parts in a flow.
     pub(crate) fn of(flow: &Flow) -> Self {
-        let (is_wetting, smaller) = (wetting(flow), smaller_phase(flow));
+        let (is_wetting, smaller) = (is_of(flow, Phase::Wetting), smaller_phase(flow));
         if smaller == 0 {
             return Self { is_thin: vec![false; is_wetting.len()], share: 0.0 };
         }
@@ -31,22 +31,27 @@ impl ThinParts {
     }
 }
 
+/// The ganglia of a phase, the largest first.
+pub(crate) fn ganglia(flow: &Flow, phase: Phase) -> Vec<Blob> {
+    let p = &flow.state.particles;
+    let (points, volumes) = (&p.position[..p.fluids], &flow.fields.bulk.volume[..p.fluids]);
+    let link = LINK * flow.config.method.spacing;
+    blobs(points, volumes, &is_of(flow, phase), link, flow.config.domain.periods())
+}
+
 /// Number of ganglia of either phase with too few particles for a curvature; `wetting_pieces` are the ganglia of the wetting phase.
 pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
     if smaller_phase(flow) == 0 {
         return 0;
     }
-    let others: Vec<bool> = wetting(flow).iter().map(|wetting| !wetting).collect();
-    let (points, volumes) = (&flow.state.particles.position[..others.len()], &flow.fields.bulk.volume[..others.len()]);
-    let link = LINK * flow.config.method.spacing;
-    let ganglia = blobs(points, volumes, &others, link, flow.config.domain.periods());
-    wetting_pieces.iter().chain(&ganglia).filter(|ganglion| ganglion.count < SMALLEST_PIECE).count()
+    let others = ganglia(flow, Phase::NonWetting);
+    wetting_pieces.iter().chain(&others).filter(|ganglion| ganglion.count < SMALLEST_PIECE).count()
 }
 
-/// Whether each fluid particle is of the wetting phase.
-fn wetting(flow: &Flow) -> Vec<bool> {
+/// Whether each fluid particle is of the phase.
+fn is_of(flow: &Flow, phase: Phase) -> Vec<bool> {
     let p = &flow.state.particles;
-    p.phase[..p.fluids].iter().map(|phase| *phase == Phase::Wetting).collect()
+    p.phase[..p.fluids].iter().map(|own| *own == phase).collect()
 }
 
 /// Number of particles of the smaller phase; 0 without an interface.
@@ -54,7 +59,6 @@ fn smaller_phase(flow: &Flow) -> usize {
     if flow.config.method.tension == 0.0 {
         return 0;
     }
-    let p = &flow.state.particles;
-    let wetting = p.phase[..p.fluids].iter().filter(|phase| **phase == Phase::Wetting).count();
-    wetting.min(p.fluids - wetting)
+    let wetting = is_of(flow, Phase::Wetting).into_iter().filter(|is_wetting| *is_wetting).count();
+    wetting.min(flow.state.particles.fluids - wetting)
 }

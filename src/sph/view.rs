@@ -1,7 +1,9 @@
 //! Read access to a flow at one time.
 
 use crate::math::Vec2;
+use crate::solver::SolverError;
 use crate::sph::configuration::Configuration;
+use crate::sph::conjugate_gradients::Convergence;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{GivenFlow, OpenSide};
@@ -42,6 +44,12 @@ impl<'a, F> View<'a, F> {
     /// The periodic sides with a given flow rate, each with the state of its flow.
     pub(crate) fn given_flows(&self) -> impl Iterator<Item = (&'a OpenSide, &'a GivenFlow)> + use<'a, F> {
         self.config.open.through.iter().zip(&self.state.given_flows)
+    }
+
+    /// The error of a `system` that is not solved to its `tolerance`.
+    pub(crate) fn not_converged(&self, system: &'static str, found: Convergence, tolerance: f64) -> SolverError {
+        let (Convergence { residual, iterations }, time, step) = (found, self.state.time, self.state.steps);
+        SolverError::NotConverged { system, residual, tolerance, iterations, time, step }
     }
 
     /// The mean pressure gradient −∇P in Pa/m that drives the given flows.

@@ -19,25 +19,4 @@ impl WettingModel for Bracke {
     fn angle(&self, line: &LineState) -> f64 {
         line.angle_by_change_of_cosine(self.static_angle(), 2.0 * line.capillary_number().abs().sqrt())
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// [Bracke1989]
-    #[test]
-    fn the_cosine_of_a_liquid_that_wets_completely_is_1_less_4_roots_of_the_capillary_number() {
-        let model = Bracke { contact_angle_deg: 0.0 };
-        for (capillary, expected) in [(1e-4, 0.96), (1e-2, 0.6), (0.0625, 0.0), (0.25, -1.0), (1.0, -1.0)] {
-            let line =
-                LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, ..LineState::default() };
-            let found = model.angle(&line).cos();
-            assert!((found - expected).abs() < 1e-12, "{capillary}: {found}");
-        }
-    }
 }

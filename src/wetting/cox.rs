@@ -60,10 +60,6 @@ impl WettingModel for Cox {
         }
         angle
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }
 
 /// g(b) − g(a) = ∫ dθ/f(θ, q) from a to b in rad, by Simpson's rule.

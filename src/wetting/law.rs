@@ -45,8 +45,10 @@ pub(crate) trait WettingModel: Parameters {
     /// The angle at which the interface is to meet the wall.
     fn angle(&self, line: &LineState) -> f64;
 
-    /// The static angle; with hysteresis the equilibrium angle.
-    fn static_angle(&self) -> f64;
+    /// The static angle: the first parameter, in degrees, unless a law has another one; with hysteresis the equilibrium angle.
+    fn static_angle(&self) -> f64 {
+        self.first().to_radians()
+    }
 
     /// The range of static angles: receding and advancing, equal without hysteresis.
     fn hysteresis_range(&self) -> [f64; 2] {
@@ -126,6 +128,9 @@ pub(crate) trait Parameters: Sized {
 
     /// The table equivalent to the law.
     fn raw(&self) -> Self::Raw;
+
+    /// The first parameter, in the unit of its key.
+    fn first(&self) -> f64;
 
     /// Keys and values of the table.
     fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)>;
@@ -210,6 +215,10 @@ macro_rules! law {
 
             fn raw(&self) -> Self::Raw {
                 raw::$law { $($field: Some(self.$field),)+ }
+            }
+
+            fn first(&self) -> f64 {
+                [$(self.$field),+][0]
             }
 
             fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)> {

@@ -20,8 +20,4 @@ impl WettingModel for LineFriction {
     fn angle(&self, line: &LineState) -> f64 {
         (self.static_angle().cos() - self.friction * line.speed / line.tension).clamp(-1.0, 1.0).acos()
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }

@@ -39,10 +39,6 @@ impl WettingModel for MolecularKinetic {
         let jumps = line.speed / (2.0 * self.frequency * self.jump_length);
         (self.static_angle().cos() - work * jumps.asinh()).clamp(-1.0, 1.0).acos()
     }
-
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
 }
 
 /// T in K from °C.

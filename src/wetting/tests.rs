@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::law::LineState;
-use super::{RawWetting, Wetting, laws};
+use super::{Bracke, CoxVoinov, Jiang, Kistler, RawWetting, Wetting, laws};
 use crate::input::Checker;
 
 /// The tables, with a placeholder for patches.
@@ -41,6 +41,33 @@ fn line(speed: f64) -> LineState {
         other_viscosity: 1.0e-3,
         length: 1.0e-4,
         slip_length: 1.0e-4,
+    }
+}
+
+/// [Kistler1993; Jiang1979, Eq. 7; Bracke1989; Voinov1976; Cox1986, Eq. 8.3]
+#[test]
+fn angles_are_the_published_ones() {
+    let (contact_angle_deg, length) = (46.8, 1e-4);
+    // For a logarithm of ten.
+    let voinov = CoxVoinov { contact_angle_deg, slip_length: length / 10_f64.exp() };
+    // On a liquid that wets completely the cosine is 1 less 4 roots of the capillary number.
+    let degrees = |cosine: f64| cosine.acos().to_degrees();
+    let bracke = [(1e-4, 0.96), (1e-2, 0.6), (0.0625, 0.0), (0.25, -1.0), (1.0, -1.0)];
+    for (model, angles, tolerance) in [
+        (Wetting::Kistler(Kistler { contact_angle_deg }), vec![(1e-4, 47.03), (1e-3, 49.04), (1e-2, 64.12)], 0.006),
+        (Wetting::Jiang(Jiang { contact_angle_deg }), vec![(1e-4, 47.81), (1e-3, 51.75), (1e-2, 68.95)], 0.006),
+        (Wetting::CoxVoinov(voinov), vec![(1e-4, 47.06), (1e-3, 49.25), (1e-2, 64.78)], 0.006),
+        (
+            Wetting::Bracke(Bracke { contact_angle_deg: 0.0 }),
+            bracke.map(|(ca, cos)| (ca, degrees(cos))).to_vec(),
+            1e-10,
+        ),
+    ] {
+        for (capillary, expected) in angles {
+            let line = LineState { speed: capillary, tension: 1.0, viscosity: 1.0, length, ..line(0.0) };
+            let found = model.angle(&line).to_degrees();
+            assert!((found - expected).abs() < tolerance, "{model:?}, {capillary}: {found}, expected {expected}");
+        }
     }
 }
 

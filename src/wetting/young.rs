@@ -19,10 +19,6 @@ impl WettingModel for Young {
         self.static_angle()
     }
 
-    fn static_angle(&self) -> f64 {
-        self.contact_angle_deg.to_radians()
-    }
-
     fn is_dynamic(&self) -> bool {
         false
     }

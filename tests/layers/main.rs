@@ -1,4 +1,4 @@
-//! The layers of the source tree: low may not import high, and each foreign library has its one place.
+//! The layers of the source tree: low may not import high, and foreign libraries for one purpose keep to their places.
 //!
 //! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
 
@@ -60,16 +60,7 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
-const ONE_PLACE: [(&str, &[&str]); 20] = [
-    ("parry2d_f64", &["geometry/"]),
-    ("clap", &["cli/"]),
-    ("clap_complete", &["cli/"]),
-    ("clap_mangen", &["cli/"]),
-    ("indicatif", &["cli/"]),
-    ("ctrlc", &["cli/"]),
-    ("signal_hook", &["cli/"]),
-    // Errors in input carry their place as `miette` wants it; only the command line prints them.
-    ("miette", &["cli/", "input/error.rs", "input/excerpt.rs"]),
+const ONE_PLACE: [(&str, &[&str]); 7] = [
     ("println!", &["cli/"]),
     ("eprintln!", &["cli/"]),
     ("print!", &["cli/"]),
@@ -78,12 +69,50 @@ const ONE_PLACE: [(&str, &[&str]); 20] = [
     // Pipes of other processes are called so too.
     ("stdout", &["cli/", "study/child.rs"]),
     ("stderr", &["cli/", "study/child.rs"]),
-    ("vtkio", &["io/vtk.rs", "io/vtk/"]),
-    ("flate2", &["io/vtk/"]),
-    ("lz4_flex", &["io/vtk/"]),
-    ("base64", &["io/vtk/"]),
-    ("plotters", &["io/axes.rs", "io/diagram.rs"]),
 ];
+
+/// Libraries for one purpose, with the files that may use them, by the beginning of their path.
+const PLACES: [(&str, &[&str]); 32] = [
+    ("ab_glyph", &["io/picture/"]),
+    ("base64", &["io/vtk/"]),
+    ("clap", &["cli/"]),
+    ("clap_complete", &["cli/"]),
+    ("clap_mangen", &["cli/"]),
+    ("cpu_time", &["run/processor_time.rs"]),
+    ("ctrlc", &["cli/"]),
+    ("dejavu", &["io/picture/"]),
+    ("delaunator", &["geometry/"]),
+    ("dxf", &["geometry/"]),
+    ("flate2", &["io/vtk/"]),
+    ("geo", &["geometry/"]),
+    ("geojson", &["geometry/"]),
+    // Masks are read and written, pictures written.
+    ("image", &["geometry/", "io/picture/"]),
+    ("indicatif", &["cli/"]),
+    ("lz4_flex", &["io/vtk/"]),
+    // Errors in input carry their place as `miette` wants it; only the command line prints them.
+    ("miette", &["cli/", "input/error.rs", "input/excerpt.rs"]),
+    ("mimalloc", &["main.rs"]),
+    ("parry2d_f64", &["geometry/"]),
+    ("plotters", &["io/axes.rs", "io/diagram.rs"]),
+    // Packs of grains, and throats by chance.
+    ("rand_chacha", &["geometry/pack/", "verify/choose.rs"]),
+    ("raw_cpuid", &["cli/"]),
+    ("roxmltree", &["geometry/"]),
+    ("signal_hook", &["cli/"]),
+    ("sobol_burley", &["study/sampling/"]),
+    ("statrs", &["study/sampling/"]),
+    ("strsim", &["input/suggest.rs"]),
+    ("svgtypes", &["geometry/"]),
+    ("tiff", &["geometry/"]),
+    ("tiny_skia", &["io/picture/"]),
+    ("vtkio", &["io/vtk.rs", "io/vtk/"]),
+    ("wkt", &["geometry/"]),
+];
+
+/// Libraries for numbers, data and errors in general.
+const EVERYWHERE: [&str; 10] =
+    ["csv", "faer", "nalgebra", "postcard", "rayon", "schemars", "serde", "serde_json", "thiserror", "toml"];
 
 /// A source file: its path below `src` and its lines without comments.
 struct Source {
@@ -311,16 +340,39 @@ fn beside_its_setup_the_solver_sees_plain_tables_of_the_case_only() {
 #[test]
 fn foreign_libraries_and_printing_keep_to_their_place() {
     let mut violations = Vec::new();
+    let uses = |line: &str, library: &str| {
+        holds(line, library)
+            && line
+                .match_indices(&format!("{library}::"))
+                .any(|(at, _)| !line[..at].ends_with(|c| is_word(c) || c == ':'))
+    };
     for source in sources() {
         for (number, line) in source.lines.iter().enumerate() {
-            for (word, places) in ONE_PLACE {
-                if holds(line, word) && !places.iter().any(|place| source.path.starts_with(place)) {
+            let words = ONE_PLACE.into_iter().filter(|(word, _)| holds(line, word));
+            for (word, places) in words.chain(PLACES.into_iter().filter(|(library, _)| uses(line, library))) {
+                if !places.iter().any(|place| source.path.starts_with(place)) {
                     violations.push(format!("{}: `{word}` belongs to {places:?}", source.place(number)));
                 }
             }
         }
     }
     assert_none(&violations);
+}
+
+#[test]
+fn every_foreign_library_has_a_place_or_is_for_all() {
+    let manifest = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")).unwrap();
+    let is_table = |line: &str| line.ends_with("dependencies]") && !line.contains("dev-");
+    let mut in_table = false;
+    for line in manifest.lines() {
+        in_table = if line.starts_with('[') { is_table(line) } else { in_table };
+        let Some((library, _)) = line.split_once(" = ").filter(|_| in_table && !line.starts_with('[')) else {
+            continue;
+        };
+        let library = library.replace('-', "_");
+        let has_place = PLACES.iter().any(|(name, _)| *name == library) || EVERYWHERE.contains(&library.as_str());
+        assert!(has_place, "`{library}` is neither in PLACES nor in EVERYWHERE of tests/layers/main.rs");
+    }
 }
 
 #[test]

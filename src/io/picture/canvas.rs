@@ -47,6 +47,14 @@ fn paint(color: Rgb) -> Paint<'static> {
     paint
 }
 
+fn path(vertices: impl Iterator<Item = [f32; 2]>) -> PathBuilder {
+    let mut builder = PathBuilder::new();
+    for [x, y] in vertices {
+        if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
+    }
+    builder
+}
+
 impl Canvas {
     /// A white canvas.
     pub(crate) fn new(width: u32, height: u32) -> Result<Self, PictureError> {
@@ -74,10 +82,7 @@ impl Canvas {
 
     /// A filled polygon.
     pub(crate) fn polygon(&mut self, vertices: impl Iterator<Item = [f32; 2]>, color: Rgb) {
-        let mut builder = PathBuilder::new();
-        for [x, y] in vertices {
-            if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
-        }
+        let mut builder = path(vertices);
         builder.close();
         if let Some(path) = builder.finish() {
             self.pixels.fill_path(&path, &paint(color), FillRule::Winding, Transform::identity(), None);
@@ -96,26 +101,19 @@ impl Canvas {
 
     /// A polyline with round joins.
     pub(crate) fn polyline(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
-        let mut builder = PathBuilder::new();
-        for [x, y] in vertices {
-            if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
-        }
-        if let Some(path) = builder.finish() {
-            let stroke = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
-            self.pixels.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
-        }
+        let (line_cap, line_join) = (LineCap::Round, LineJoin::Round);
+        self.stroke(vertices, &Stroke { width, line_cap, line_join, ..Stroke::default() }, color);
     }
 
     /// A dashed polyline.
     pub(crate) fn dashes(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
-        let mut builder = PathBuilder::new();
-        for [x, y] in vertices {
-            if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
-        }
-        if let Some(path) = builder.finish() {
-            let dash = StrokeDash::new(vec![3.0 * width, 2.0 * width], 0.0);
-            let stroke = Stroke { width, dash, ..Stroke::default() };
-            self.pixels.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
+        let dash = StrokeDash::new(vec![3.0 * width, 2.0 * width], 0.0);
+        self.stroke(vertices, &Stroke { width, dash, ..Stroke::default() }, color);
+    }
+
+    fn stroke(&mut self, vertices: impl Iterator<Item = [f32; 2]>, stroke: &Stroke, color: Rgb) {
+        if let Some(path) = path(vertices).finish() {
+            self.pixels.stroke_path(&path, &paint(color), stroke, Transform::identity(), None);
         }
     }
 

@@ -36,9 +36,9 @@ pub(super) fn particle_picture(
     let mut canvas = Canvas::new(WIDTH, height)?;
     canvas.rectangle(view.corner, view.size, SOLID);
     fluids(&mut canvas, &view, snapshot, spacing);
-    strokes(&mut canvas, &view, outline, (2.5, OUTLINE), &[Vec2::zeros()]);
+    strokes(&mut canvas, &view, outline, 2.5, OUTLINE, &[Vec2::zeros()]);
     if let Some(interface) = &snapshot.interface {
-        strokes(&mut canvas, &view, interface, (3.5, INTERFACE), &periods(frame));
+        strokes(&mut canvas, &view, interface, 3.5, INTERFACE, &periods(frame));
     }
     view.frame(&mut canvas);
     // A geometry has no time.
@@ -98,7 +98,7 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
 }
 
 /// Lines, translated by each of `shifts` in m.
-fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, (width, color): (f32, Rgb), shifts: &[Vec2]) {
+fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, color: Rgb, shifts: &[Vec2]) {
     for line in &lines.lines {
         let points = || line.iter().filter_map(|&i| lines.points.get(i as usize));
         shifts.iter().for_each(|shift| canvas.polyline(points().map(|&x| view.pixel(x + shift)), width, color));
@@ -132,7 +132,7 @@ mod tests {
     use crate::diagram::Through;
     use crate::snapshot::{Cloud, Field};
 
-    fn disc_in_a_box() -> (Vec<Vec2>, Vec<i64>) {
+    fn disc_in_a_box() -> Snapshot<'static> {
         let points: Vec<Vec2> =
             (0..40 * 30).map(|i| Vec2::new(f64::from(i % 40) + 0.5, f64::from(i / 40) + 0.5) * 1.0e-5).collect();
         let phase = |x: &Vec2| match x {
@@ -141,49 +141,39 @@ mod tests {
             _ => 1,
         };
         let phases = points.iter().map(phase).collect();
-        (points, phases)
+        let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phases) }];
+        let particles = Cloud { points: points.into(), fields };
+        Snapshot { time: 2.5e-3, step: 10, particles, grid: None, interface: None }
+    }
+
+    fn colors(pixels: &tiny_skia::Pixmap) -> Vec<Rgb> {
+        pixels.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
     }
 
     #[test]
     fn a_picture_shows_both_fluids_and_is_1200_pixels_wide() {
-        let (points, phases) = disc_in_a_box();
-        let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phases.into()) }];
-        let snapshot = Snapshot {
-            time: 2.5e-3,
-            step: 10,
-            particles: Cloud { points: points.into(), fields },
-            grid: None,
-            interface: None,
-        };
-        let png = particle_picture(&snapshot, &Lines::default(), "A disc of liquid on a floor", None).unwrap();
+        let png = particle_picture(&disc_in_a_box(), &Lines::default(), "A disc of liquid on a floor", None).unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         assert_eq!(pixels.width(), WIDTH);
         for color in [FLUIDS[0].color, FLUIDS[1].color, SOLID] {
-            let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == color).count();
+            let count = colors(&pixels).into_iter().filter(|found| *found == color).count();
             assert!(count > 10_000, "{count} pixels of {color:?}");
         }
     }
 
     #[test]
     fn what_lies_beyond_an_open_side_is_white_with_arrows() {
-        let (points, phases) = disc_in_a_box();
-        let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phases.into()) }];
-        let particles = Cloud { points: points.into(), fields };
-        let snapshot = Snapshot { time: 0.0, step: 0, particles, grid: None, interface: None };
         let open = [Some(Through::In), Some(Through::Out), None, None];
         let frame = Frame { bounds: [[1.0e-4, 0.0], [3.0e-4, 3.0e-4]], open, periodic: [false; 2] };
-        let png = particle_picture(&snapshot, &Lines::default(), "", Some(&frame)).unwrap();
+        let png = particle_picture(&disc_in_a_box(), &Lines::default(), "", Some(&frame)).unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
-        let (width, row) = (pixels.width() as usize, HEAD as usize + 40);
-        let of = |x: usize| {
-            let pixel = pixels.pixels()[row * width + x];
-            [pixel.red(), pixel.green(), pixel.blue()]
-        };
+        let colors = colors(&pixels);
+        let of = |x: usize| colors[(HEAD as usize + 40) * pixels.width() as usize + x];
         let view = View::new(Bounds { min: Vec2::zeros(), max: Vec2::new(4.0e-4, 3.0e-4) }, Some(&frame));
         let at = |x: f64| view.pixel(Vec2::new(x, 1.0e-4))[0] as usize;
         assert_eq!([of(at(0.99e-4)), of(at(3.02e-4))], [[255; 3]; 2]);
         assert_ne!(of(at(2.5e-4)), [255; 3]);
-        let arrows = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == OUTLINE).count();
+        let arrows = colors.iter().filter(|color| **color == OUTLINE).count();
         assert!(arrows > 500, "{arrows}");
     }
 

@@ -137,36 +137,25 @@ mod tests {
         }
     }
 
-    const SHAPES: [Shape; 4] = [
-        Shape::Plug,
-        Shape::Parabola,
-        Shape::HalfParabola { mirror_above: true },
-        Shape::HalfParabola { mirror_above: false },
-    ];
-
     #[test]
-    fn every_profile_has_its_mean_velocity() {
-        let opening = Opening { from: 1.0, to: 3.0 };
-        for shape in SHAPES {
-            let profile = Profile { mean: 0.7, shape };
-            let n = 1000;
-            let middle = |i: u32| 1.0 + 2.0 * (f64::from(i) + 0.5) / f64::from(n);
-            let mean = (0..n).map(|i| profile.at(&opening, middle(i))).sum::<f64>() / f64::from(n);
-            // The midpoint rule is exact to second order for a parabola.
-            assert!((mean / 0.7 - 1.0).abs() < 1e-6, "{shape:?}");
-        }
-    }
-
-    #[test]
-    fn rows_bring_the_flow_of_the_profile_however_few_they_are() {
+    fn every_profile_has_its_mean_velocity_and_however_few_rows_bring_its_flow() {
         let opening = Opening { from: -0.3, to: 1.1 };
-        for shape in SHAPES {
+        for shape in [
+            Shape::Plug,
+            Shape::Parabola,
+            Shape::HalfParabola { mirror_above: true },
+            Shape::HalfParabola { mirror_above: false },
+        ] {
             let profile = Profile { mean: 0.7, shape };
+            let mean = |parts: u32, velocity: &dyn Fn(f64) -> f64| {
+                let middle = |i: u32| opening.from + opening.width() * (f64::from(i) + 0.5) / f64::from(parts);
+                (0..parts).map(|i| velocity(middle(i))).sum::<f64>() / f64::from(parts)
+            };
+            // The midpoint rule is exact to second order for a parabola.
+            assert!((mean(1000, &|y| profile.at(&opening, y)) / 0.7 - 1.0).abs() < 1e-6, "{shape:?}");
             for rows in 1..12 {
-                let width = opening.width() / f64::from(rows);
-                let middle = |i: u32| opening.from + (f64::from(i) + 0.5) * width;
-                let flow: f64 = (0..rows).map(|i| width * profile.of_row(&opening, rows as usize, middle(i))).sum();
-                assert!((flow / (0.7 * opening.width()) - 1.0).abs() < 1e-14, "{shape:?}, {rows} rows");
+                let of_rows = mean(rows, &|y| profile.of_row(&opening, rows as usize, y));
+                assert!((of_rows / 0.7 - 1.0).abs() < 1e-14, "{shape:?}, {rows} rows");
             }
         }
     }

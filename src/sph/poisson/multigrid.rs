@@ -10,6 +10,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
 use crate::math::Vec2;
+use crate::sph::cells::members;
 use crate::sph::components::components;
 use crate::sph::conjugate_gradients::{SymmetricMatrix, Unknown};
 use crate::sph::parallel::total;
@@ -114,10 +115,10 @@ impl Multigrid {
         if !(rho > 0.0) {
             return c;
         }
+        let after_one_step = |c: Vec<T>| c.iter().map(|c| *c * (alpha / rho)).collect();
         let r: Vec<T> = b.iter().zip(&v).map(|(b, v)| *b - *v * (alpha / rho)).collect();
         if dot(&r, &r) <= GOOD_ENOUGH * GOOD_ENOUGH * dot(b, b) {
-            c.iter_mut().for_each(|c| *c = *c * (alpha / rho));
-            return c;
+            return after_one_step(c);
         }
         let (mut d, mut w) = (vec![T::ZERO; n], vec![T::ZERO; n]);
         self.cycle(depth, matrix, &r, &mut d);
@@ -125,8 +126,7 @@ impl Multigrid {
         let (gamma, beta, alpha2) = (dot(&d, &v), dot(&d, &w), dot(&d, &r));
         let rho2 = beta - gamma * gamma / rho;
         if !(rho2 > 0.0) {
-            c.iter_mut().for_each(|c| *c = *c * (alpha / rho));
-            return c;
+            return after_one_step(c);
         }
         let (x, y) = (alpha / rho - gamma * alpha2 / (rho * rho2), alpha2 / rho2);
         c.iter_mut().zip(&d).for_each(|(c, d)| *c = *c * x + *d * y);
@@ -145,9 +145,15 @@ fn dot<T: Unknown>(a: &[T], b: &[T]) -> f64 {
 
 /// z = M⁻¹ r by the dense factor, component by component.
 fn solve_dense<T: Unknown>(factor: &Cholesky<f64, Dyn>, r: &[T], z: &mut [T]) {
-    let right = DMatrix::from_fn(r.len(), T::COMPONENTS, |a, k| r[a].component(k));
+    let mut zero = T::ZERO;
+    let right = DMatrix::from_fn(r.len(), zero.components().len(), |a, k| {
+        let mut value = r[a];
+        value.components()[k]
+    });
     let solution = factor.solve(&right);
-    z.iter_mut().enumerate().for_each(|(a, z)| *z = T::from_components(|k| solution[(a, k)]));
+    for (a, z) in z.iter_mut().enumerate() {
+        z.components().iter_mut().enumerate().for_each(|(k, z)| *z = solution[(a, k)]);
+    }
 }
 
 /// Pᵀ M P for piecewise constant P: couplings between aggregates are summed, those within one cancel.
@@ -158,7 +164,9 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
         .par_chunks(count.div_ceil(PARTS).max(1))
         .map(|groups| {
             let mut rows = Rows { index: vec![NONE; count], ..Rows::default() };
-            groups.iter().for_each(|&g| rows.push(fine, aggregate, g, &members[start[g]..start[g + 1]]));
+            groups
+                .iter()
+                .for_each(|&g| rows.push(fine, aggregate, g, &members[start[g] as usize..start[g + 1] as usize]));
             rows
         })
         .collect();
@@ -172,24 +180,6 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
         coupling: parts.iter().flat_map(|part| &part.coupling).map(|coupling| *coupling as f32).collect(),
         diagonal: parts.iter().flat_map(|part| &part.diagonal).copied().collect(),
     }
-}
-
-/// The start of each aggregate in the list of members, and the list.
-fn members(aggregate: &[u32], count: usize) -> (Vec<usize>, Vec<u32>) {
-    let mut start = vec![0; count + 1];
-    for &group in aggregate {
-        start[group as usize + 1] += 1;
-    }
-    for i in 0..count {
-        start[i + 1] += start[i];
-    }
-    let mut next = start.clone();
-    let mut members = vec![0_u32; aggregate.len()];
-    for (a, &group) in aggregate.iter().enumerate() {
-        members[next[group as usize]] = a as u32;
-        next[group as usize] += 1;
-    }
-    (start, members)
 }
 
 /// Consecutive rows of a coarse matrix.

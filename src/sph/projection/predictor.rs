@@ -87,14 +87,7 @@ impl View<'_, Fields> {
         let net = values(acceleration.len(), |a| acceleration[a] + by_pressure[a]);
         let (change, found) = matrix.change(&net, dt);
         if !(found.residual <= implicit_viscosity::RESIDUAL) {
-            return Err(SolverError::NotConverged {
-                system: "the viscous step",
-                residual: found.residual,
-                tolerance: implicit_viscosity::RESIDUAL,
-                iterations: found.iterations,
-                time: self.state.time,
-                step: self.state.steps,
-            });
+            return Err(self.not_converged("the viscous step", found, implicit_viscosity::RESIDUAL));
         }
         each(acceleration, |a| change[a] / dt - by_pressure[a]);
         Ok(Damped { by_pressure, excess, weight: matrix.weight(dt), iterations: found.iterations })

@@ -161,14 +161,7 @@ impl View<'_, Fields> {
         work.iterations += solved.iter().map(|solved| solved.iterations as u64).sum::<u64>();
         work.residual = convergence.residual;
         if !(convergence.residual <= tolerance.residual) {
-            return Err(SolverError::NotConverged {
-                system: "the pressure equation",
-                residual: convergence.residual,
-                tolerance: tolerance.residual,
-                iterations: convergence.iterations,
-                time: self.state.time,
-                step: self.state.steps,
-            });
+            return Err(self.not_converged("the pressure equation", convergence, tolerance.residual));
         }
         Ok((p, found))
     }

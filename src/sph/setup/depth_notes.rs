@@ -17,13 +17,12 @@ pub(crate) fn notes(sph: &Sph, geometry: &Geometry) -> Vec<String> {
     let widths: Vec<f64> = throats(geometry).iter().map(|throat| throat.width).collect();
     let law = sph.wetting_model.filter(|_| sph.acting_tension() > 0.0).and_then(|law| on_walls_only(&law));
     let [Some(&narrowest), Some(&widest)] = [widths.first(), widths.last()] else { return law.into_iter().collect() };
-    let of_throats =
-        implausible(depth, narrowest, widest).or_else(|| unlike(sph, (depth, &widths), [narrowest, widest]));
+    let of_throats = implausible(depth, narrowest, widest).or_else(|| unlike(sph, depth, &widths, [narrowest, widest]));
     of_throats.into_iter().chain(law).collect()
 }
 
 /// The note if throats are so much narrower or wider than the median one that a single profile factor cannot describe the flow in both.
-fn unlike(sph: &Sph, (depth, widths): (f64, &[f64]), ends: [f64; 2]) -> Option<String> {
+fn unlike(sph: &Sph, depth: f64, widths: &[f64], ends: [f64; 2]) -> Option<String> {
     let profile = sph.profile_factor.or_else(|| Some(profile_factor(median_width(widths)? / depth)))?;
     let error = |width: &f64| duct_error(width / depth, profile);
     let worst = ends.into_iter().max_by(|a, b| error(a).abs().total_cmp(&error(b).abs()))?;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::case::FluidPhase;
 use crate::case::network::state::{NetworkState, Start};
-use crate::case::{Case, Side, Sph};
+use crate::case::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
 use crate::interface::depth::Depth;
@@ -22,12 +22,11 @@ const WIDEST: f64 = 0.9 * TAU;
 /// The region of the invading phase.
 pub(super) fn region(case: &Case, sph: &Sph, start: &Start) -> Region {
     let bounds = Bounds { min: case.geometry.min.into(), max: case.geometry.max.into() };
-    let periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
     let outline = NetworkState::curves(&start.state.invading_outline);
     // The menisci come last.
     let interfaces = &outline[outline.len().saturating_sub(start.state.menisci.len())..];
     let extended: Vec<Curve> = interfaces.iter().map(|curve| extended(curve, INTO_SOLID * sph.spacing)).collect();
-    let of = |pieces: &[Curve]| Geometry::of_surface(bounds, periodic, pieces);
+    let of = |pieces: &[Curve]| Geometry::of_surface(bounds, sph.sides.periodic(), pieces);
     let pore_area: f64 = start.state.elements.iter().map(|element| element.area_m2).sum();
     let area = start.state.saturation_with_menisci.map(|wetting| match start.state.invading {
         FluidPhase::Wetting => wetting * pore_area,
@@ -48,12 +47,7 @@ fn extended(curve: &Curve, length: f64) -> Curve {
 
 /// Sets the pressures of the fluid particles: uniform in each phase, with a difference p_n − p_w of tension times applied curvature; in trapped
 /// clusters by the curvature of their own menisci. A side with a given pressure fixes the level.
-pub(super) fn set_pressures(
-    particles: &mut Particles,
-    (sph, depth): (&Sph, Option<Depth>),
-    open: &Open,
-    start: &Start,
-) {
+pub(super) fn set_pressures(particles: &mut Particles, sph: &Sph, depth: Option<Depth>, open: &Open, start: &Start) {
     let state = &start.state;
     let jump_at = |curvature: f64| sph.tension * depth.map_or(curvature, |depth| depth.curvature(curvature));
     let jump = jump_at(state.applied_curvature_per_m);

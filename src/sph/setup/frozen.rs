@@ -52,7 +52,7 @@ pub(super) fn frozen(pore: &Pore, particles: &Particles, depth: &[f64]) -> Resul
     let whole = (particles.clone(), depth.to_vec());
     let of_phase = |phase| at_rest(pore, Some(phase), pore.beside(phase, particles));
     let flows = [at_rest(pore, None, whole), of_phase(Phase::Wetting), of_phase(Phase::NonWetting)];
-    Ok(FrozenInterface::new(flows))
+    Ok(FrozenInterface { flows })
 }
 
 /// Constructor of the flow of a phase, or of the whole pore, from its particles and the depth in m of wall particles.

@@ -23,11 +23,11 @@ pub(crate) use initial::region;
 use self::frozen::Pore;
 use self::ground::{Ground, start_phase};
 use self::open_sides::{inside_of_open_sides, open_sides};
-use self::positions::{Filling, positions};
+use self::positions::filled;
 use self::surroundings::surroundings;
 use self::viscous_time::viscous_time;
 use self::walls::wall_properties;
-use crate::case::{Case, Side, Sph};
+use crate::case::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::configuration::Configuration;
@@ -35,7 +35,6 @@ use crate::sph::domain::WallQuery;
 use crate::sph::fill::Region;
 use crate::sph::flow::Flow;
 use crate::sph::open::{self, Around};
-use crate::sph::particles::Particles;
 use crate::sph::solver::SphSolver;
 
 /// The solids of a case for the solver: periodic sides joined, wall sides closed.
@@ -43,10 +42,7 @@ use crate::sph::solver::SphSolver;
 /// # Errors
 /// [`SetupError::Geometry`] if the shapes are invalid.
 pub(crate) fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
-    let sides = sph.sides.each();
-    let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
-    let walls = sides.map(|side| side == Side::Wall);
-    Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
+    Ok(Geometry::new(&case.geometry)?.with_sides(sph.sides.periodic(), sph.sides.walls()))
 }
 
 /// The solids of a case, after the checks that do not need particles: length of periods, and openings of open sides.
@@ -64,8 +60,7 @@ fn start_region(case: &Case, sph: &Sph) -> Region {
         Some(start) => from_network_state::region(case, sph, start),
         // A frozen interface is periodic, as is its flow.
         None if sph.measure.relative_permeability => {
-            let periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
-            Region::of_shapes(region(case, &sph.initial.wetting).with_periodic(periodic))
+            Region::of_shapes(region(case, &sph.initial.wetting).with_periodic(sph.sides.periodic()))
         }
         None => Region::of_shapes(region(case, &sph.initial.wetting)),
     }
@@ -73,29 +68,25 @@ fn start_region(case: &Case, sph: &Sph) -> Region {
 
 /// The solver of a case at time zero.
 pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
-    build_watched(case, sph, &mut |_| {})
+    solver(case, sph, true, &mut |_| {})
 }
 
-/// The solver of a case at time zero; reports the completed fraction of the packing, which takes most of the time, to `packed`.
-pub(crate) fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
-    placed(case, sph, Some(packed))
-}
-
-/// The solver of a case to be restored from a saved state: with the number of particles at time zero, which are not packed.
-pub(crate) fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
-    placed(case, sph, None)
-}
-
-/// The solver of a case. The particles are packed only if there is a progress function `packed`; a resumed state has packed particles.
-fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result<SphSolver, SetupError> {
+/// The solver of a case at time zero; reports the completed fraction of the packing, which takes most of the time, to `packed`. Only a solver to be
+/// restored from a saved state, which has packed particles, need not be packed.
+pub(crate) fn solver(
+    case: &Case,
+    sph: &Sph,
+    is_packed: bool,
+    packed: &mut dyn FnMut(f64),
+) -> Result<SphSolver, SetupError> {
     if sph.measure.relative_permeability {
-        return beside_frozen_interface(case, sph, packed.unwrap_or(&mut |_| {}));
+        return beside_frozen_interface(case, sph, packed);
     }
     let geometry = Arc::new(geometry(case, sph)?);
     let bounds = geometry.bounds();
     let ground = Ground::new(&geometry, sph)?;
     let region = start_region(case, sph);
-    let (mut particles, mut depth) = filled(sph, &geometry, (&ground, &region), packed)?;
+    let (mut particles, mut depth) = filled(sph, &geometry, &ground, &region, is_packed, packed)?;
     let Ground { lattice, method, domain } = ground;
     let phase = |x: Vec2| start_phase(sph, &region, x);
     let open = open_sides(sph, &geometry, &lattice, method.kernel.h, &phase)?;
@@ -104,7 +95,7 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
         bounds,
         step: lattice.step,
         support: method.kernel.support(),
-        walls: sph.sides.each().map(|side| side == Side::Wall),
+        walls: sph.sides.walls(),
         signed_distance: &|x| geometry.signed_distance(inside(x)),
         phase: &phase,
     };
@@ -112,7 +103,7 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     initial::set(&mut particles, sph, &open, &inside, bounds);
     if let Some(start) = &sph.initial.network {
         let depth = method.plates.map(|plates| plates.depth);
-        from_network_state::set_pressures(&mut particles, (sph, depth), &open, start);
+        from_network_state::set_pressures(&mut particles, sph, depth, &open, start);
     }
     let viscous_time = viscous_time(&method, &lattice, &domain, |x| geometry.signed_distance(x));
     let surroundings = surroundings(case, sph, &geometry, &method);
@@ -132,32 +123,8 @@ fn beside_frozen_interface(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) 
     let region = start_region(case, sph);
     let one_fluid = frozen::with_one_fluid(sph);
     let ground = Ground::new(&geometry, &one_fluid)?;
-    let (particles, depth) = filled(sph, &geometry, (&ground, &region), Some(packed))?;
+    let (particles, depth) = filled(sph, &geometry, &ground, &region, true, packed)?;
     let surroundings = surroundings(case, sph, &geometry, &ground.method);
     let pore = Pore { geometry, region: Arc::new(region), sph: Arc::new(one_fluid) };
     Ok(SphSolver::beside(frozen::frozen(&pore, &particles, &depth)?, surroundings))
-}
-
-/// The particles of pore and walls, and the depth in m of wall particles.
-fn filled(
-    sph: &Sph,
-    geometry: &Geometry,
-    (ground, region): (&Ground, &Region),
-    packed: Option<&mut dyn FnMut(f64)>,
-) -> Result<(Particles, Vec<f64>), SetupError> {
-    let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(region);
-    let filling = Filling {
-        geometry,
-        domain: &ground.domain,
-        lattice: &ground.lattice,
-        method: &ground.method,
-        sides: sph.sides.each(),
-        fitted_walls: sph.numerics.fitted_walls,
-    };
-    let positions = positions(&filling, interface, packed);
-    let particles = positions.particles(|x| start_phase(sph, region, x));
-    if particles.fluids == 0 {
-        return Err(SetupError::NoFluid(sph.spacing));
-    }
-    Ok((particles, positions.depth))
 }

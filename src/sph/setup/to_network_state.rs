@@ -20,14 +20,15 @@ pub(super) fn state_export(start: &Start, tension: f64, depth: Option<Depth>) ->
     Box::new(move |particles: &Particles, pressure| {
         let fluid = (0..particles.fluids).map(|a| (particles.position[a], particles.phase[a]));
         // Serialization of numbers, strings and lists of them cannot fail.
-        let text = serde_json::to_string(&state(&start, (tension, depth), fluid, pressure)).unwrap_or_default();
+        let text = serde_json::to_string(&state(&start, tension, depth, fluid, pressure)).unwrap_or_default();
         Document { name: "at-end.json", text: text + "\n" }
     })
 }
 
 fn state(
     start: &NetworkState,
-    (tension, depth): (f64, Option<Depth>),
+    tension: f64,
+    depth: Option<Depth>,
     fluid: impl Iterator<Item = (Vec2, Phase)>,
     pressure: f64,
 ) -> NetworkState {
@@ -112,7 +113,7 @@ mod tests {
         let at = |x: f64, phase| (Vec2::new(x, 0.5), phase);
         let (wet, dry) = (Phase::Wetting, Phase::NonWetting);
         let fluid = [at(0.2, wet), at(0.4, wet), at(0.6, dry), at(1.2, dry), at(1.4, dry), at(1.6, wet)];
-        let state = state(&start(), (2.0, None), fluid.into_iter(), 6.0);
+        let state = state(&start(), 2.0, None, fluid.into_iter(), 6.0);
         let phases: Vec<FluidPhase> = state.elements.iter().map(|element| element.phase).collect();
         assert_eq!(phases, [FluidPhase::Wetting, FluidPhase::NonWetting]);
         assert!(state.elements.iter().all(|element| !element.trapped));
@@ -121,7 +122,7 @@ mod tests {
 
     #[test]
     fn an_element_without_particles_keeps_its_phase() {
-        let state = state(&start(), (1.0, None), std::iter::empty(), f64::NAN);
+        let state = state(&start(), 1.0, None, std::iter::empty(), f64::NAN);
         assert_eq!(state.elements[0].phase, FluidPhase::NonWetting);
         assert_eq!(state.elements[1].phase, FluidPhase::Wetting);
     }

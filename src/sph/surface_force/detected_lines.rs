@@ -178,49 +178,25 @@ impl DetectedLine for InterfaceLine<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Bounds, LINE_MOMENT};
-    use crate::sph::surface_force::points::{InterfacePoint, Resolution};
-
-    const H: f64 = 0.15;
-    const RESOLUTION: Resolution = Resolution { spacing: 0.1, h: H };
-
-    fn domain() -> Domain {
-        Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![])
-    }
-
-    fn floor(x: Vec2) -> (f64, Vec2) {
-        (x.y, Vec2::y())
-    }
+    use crate::math::LINE_MOMENT;
+    use crate::sph::surface_force::points::InterfacePoint;
+    use crate::sph::surface_force::stencils::fixture::{H, at_rest, directions, floor, interface};
 
     /// The level 1/2 of the smoothed color of a drop of radius 1 on the floor that moves with (`speed`, 0) and rotates about its
     /// center, which does not move the interface.
     fn drop(degrees: f64, speed: f64) -> Vec<InterfacePoint> {
         let level = f64::midpoint(1.0, (1.0 - 4.0 * LINE_MOMENT * H * H).sqrt());
-        (0..400)
-            .map(|i| std::f64::consts::TAU * (f64::from(i) + 0.3) / 400.0)
-            .map(|t| (Vec2::new(t.cos(), t.sin()), Vec2::new(-t.sin(), t.cos())))
-            .map(|(n, turn)| (level * n, n, turn))
-            .map(|(x, n, turn)| {
-                (x - Vec2::new(0.0, degrees.to_radians().cos()), -n, Vec2::new(speed, 0.0) + 5.0 * turn)
-            })
-            .filter(|(x, ..)| x.y > 0.0)
-            .map(|(x, normal, velocity)| InterfacePoint {
-                x,
-                normal,
-                velocity,
-                wall_distance: x.y,
-                wall_normal: Vec2::y(),
-                touches: true,
-                weight: 1.0,
-            })
-            .collect()
+        let center = Vec2::new(0.0, -degrees.to_radians().cos());
+        let mut points = at_rest(directions(0.3).map(|n| (level * n + center, -n)), &floor);
+        points.iter_mut().for_each(|p| p.velocity = Vec2::new(speed, 0.0) - 5.0 * perpendicular(p.normal));
+        points
     }
 
     #[test]
     fn a_drop_has_two_lines_with_their_place_angle_and_speed() {
         for degrees in [40.0_f64, 60.0, 90.0, 120.0, 140.0] {
-            let (points, domain) = (drop(degrees, 0.3), domain());
-            let interface = Interface::new(&points, &domain, RESOLUTION, &floor);
+            let points = drop(degrees, 0.3);
+            let interface = interface(&points, &floor);
             let lines = interface.lines();
             assert_eq!(lines.len(), 2, "{degrees}");
             for line in lines {
@@ -238,8 +214,8 @@ mod tests {
 
     #[test]
     fn an_interface_that_stands_out_over_its_anchor_looks_steeper() {
-        let (points, domain) = (drop(90.0, 0.0), domain());
-        let interface = Interface::new(&points, &domain, RESOLUTION, &floor);
+        let points = drop(90.0, 0.0);
+        let interface = interface(&points, &floor);
         for line in interface.lines() {
             let inside = line.present(Some(Vec2::new(0.97 * line.outward().x, 0.0))).to_degrees();
             let outside = line.present(Some(Vec2::new(1.03 * line.outward().x, 0.0))).to_degrees();

@@ -62,30 +62,16 @@ pub(crate) struct Fitted {
 }
 
 /// The fits for the curvature of an interface.
+#[derive(Clone, Copy)]
 pub(crate) struct InterfaceFit<'a> {
-    interface: &'a Interface<'a>,
-    /// Angle of the wetting law, if there is one.
-    angle: Option<&'a AngleAt<'a>>,
+    pub(super) interface: &'a Interface<'a>,
+    /// The angle imposed at walls, `None` for free fits: the interface meets walls at any angle.
+    pub(super) angle: Option<&'a AngleAt<'a>>,
     /// The contact lines at edges and tight bends of the walls.
-    pinned_lines: &'a [PinnedLine],
+    pub(super) pinned_lines: &'a [PinnedLine],
 }
 
-impl<'a> InterfaceFit<'a> {
-    /// Free fits: the interface meets walls at any angle.
-    pub(crate) fn free(interface: &'a Interface<'a>) -> Self {
-        Self { interface, angle: None, pinned_lines: &[] }
-    }
-
-    /// The fits constrained to the given angle at walls.
-    pub(crate) fn with_contact_angle(self, angle: &'a AngleAt<'a>) -> Self {
-        Self { angle: Some(angle), ..self }
-    }
-
-    /// The fits with the contact lines at edges and tight bends.
-    pub(crate) fn with_pinned_lines(self, pinned_lines: &'a [PinnedLine]) -> Self {
-        Self { pinned_lines, ..self }
-    }
-
+impl InterfaceFit<'_> {
     /// Curvature of the interface nearest to `x` (m), with the result of the constrained fit.
     pub(crate) fn at(&self, x: Vec2) -> Option<Fitted> {
         let nearest = self.interface.nearest(x).into_iter();
@@ -196,7 +182,7 @@ fn arc(chord: f64, kappa: f64) -> f64 {
 }
 
 #[cfg(test)]
-impl<'a> InterfaceFit<'a> {
+impl InterfaceFit<'_> {
     /// Curvature in 1/m of the interface nearest to `x`, `None` without interface within the stencil.
     pub(crate) fn curvature(&self, x: Vec2) -> Option<f64> {
         self.at(x).map(|fitted| fitted.curvature)
@@ -205,62 +191,30 @@ impl<'a> InterfaceFit<'a> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::LazyLock;
-
     use super::*;
-    use crate::math::{Bounds, LINE_MOMENT};
-    use crate::sph::domain::Domain;
-    use crate::sph::surface_force::points::Resolution;
-    use crate::sph::surface_force::stencils::Wall;
-
-    const H: f64 = 0.15;
-    const RESOLUTION: Resolution = Resolution { spacing: 0.1, h: H };
-
-    static DOMAIN: LazyLock<Domain> =
-        LazyLock::new(|| Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]));
+    use crate::math::LINE_MOMENT;
+    use crate::sph::surface_force::stencils::fixture::{H, at_rest, directions, floor, interface};
 
     /// Radius of the level 1/2 of the smoothed color of a disc of radius 1.
     fn level() -> f64 {
         1.0 - LINE_MOMENT * H * H
     }
 
-    /// An interface at rest through those of the points, given with their normals, that are outside the wall.
-    fn interface(points: impl Iterator<Item = (Vec2, Vec2)>, wall: &Wall) -> Vec<InterfacePoint> {
-        points
-            .map(|(x, normal)| (x, normal, wall(x)))
-            .filter(|(.., (wall_distance, _))| *wall_distance > 0.0)
-            .map(|(x, normal, (wall_distance, wall_normal))| InterfacePoint {
-                x,
-                normal,
-                velocity: Vec2::zeros(),
-                wall_distance,
-                wall_normal,
-                touches: true,
-                weight: 1.0,
-            })
-            .collect()
-    }
-
-    /// Unit vectors in all directions.
-    fn directions() -> impl Iterator<Item = Vec2> {
-        (0..400).map(|i| std::f64::consts::TAU * f64::from(i) / 400.0).map(|t| Vec2::new(t.cos(), t.sin()))
-    }
-
     /// Points of the level of a disc of radius 1 about (0, `height`) above the floor y = 0.
     fn circle(height: f64) -> Vec<InterfacePoint> {
-        interface(directions().map(|n| (level() * n + Vec2::new(0.0, height), -n)), &floor)
+        at_rest(directions(0.0).map(|n| (level() * n + Vec2::new(0.0, height), -n)), &floor)
     }
 
-    fn floor(x: Vec2) -> (f64, Vec2) {
-        (x.y, Vec2::y())
+    fn free<'a>(interface: &'a Interface<'a>) -> InterfaceFit<'a> {
+        InterfaceFit { interface, angle: None, pinned_lines: &[] }
     }
 
     /// [Pratt1987]
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
-        let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
-        let fit = InterfaceFit::free(&interface);
+        let interface = interface(&points, &floor);
+        let fit = free(&interface);
         for t in [0.0_f64, 0.7, 2.0, 4.0] {
             let x = Vec2::new(0.0, 2.0) + 1.1 * Vec2::new(t.cos(), t.sin());
             let kappa = fit.curvature(x).unwrap();
@@ -274,11 +228,11 @@ mod tests {
     fn a_rough_interface_has_the_same_curvature_on_both_sides() {
         // Bumps of a tenth of a spacing, 2.3 spacings apart, as from single particles on the wrong side of the interface.
         let bump = |n: &Vec2| (27.0 * n.y.atan2(n.x)).cos();
-        let rough = directions().map(|n| ((level() + 0.01 * bump(&n)) * n, -n));
-        let points = interface(rough, &|_| (f64::INFINITY, Vec2::zeros()));
-        let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
-        let fit = InterfaceFit::free(&interface);
-        for n in directions().take(30) {
+        let rough = directions(0.0).map(|n| ((level() + 0.01 * bump(&n)) * n, -n));
+        let points = at_rest(rough, &|_| (f64::INFINITY, Vec2::zeros()));
+        let interface = interface(&points, &floor);
+        let fit = free(&interface);
+        for n in directions(0.0).take(30) {
             let [inside, outside] = [0.75, 1.25].map(|r| fit.curvature(r * n).unwrap());
             assert!((inside - outside).abs() < 5e-3, "{inside} inside, {outside} outside");
             // A bump does not appear as a dent: the fit has 2 % of the curvature of the wave, which is seven times that of the circle.
@@ -292,8 +246,8 @@ mod tests {
             let angle = degrees.to_radians();
             let points = circle(-angle.cos());
             let law = |_, _| angle;
-            let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
-            let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
+            let interface = interface(&points, &floor);
+            let fit = InterfaceFit { angle: Some(&law), ..free(&interface) };
             // At 30 degrees and heights of .1 or more the tangent is so far from the contact point that the iteration ends 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
             // Only points below the top of the cap.
@@ -316,10 +270,10 @@ mod tests {
                 let from = x + Vec2::new(0.0, below);
                 (from.norm() - DISC, from.normalize())
             };
-            let points = interface(directions().map(|n| (level() * n, -n)), &wall);
+            let points = at_rest(directions(0.0).map(|n| (level() * n, -n)), &wall);
             let law = |_, _| angle;
-            let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &wall);
-            let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
+            let interface = interface(&points, &wall);
+            let fit = InterfaceFit { angle: Some(&law), ..free(&interface) };
             for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
                 let kappa = fit.curvature(point.x).unwrap();
                 // The error is that of the tangents by which interface and wall are extrapolated.
@@ -350,7 +304,7 @@ mod tests {
                 .iter()
                 .step_by(10)
                 .flat_map(|(x, z, phi, kappa)| [(-x, *z, -phi, *kappa), (*x, *z, *phi, *kappa)]);
-            let points = interface(
+            let points = at_rest(
                 sides.map(|(x, z, phi, kappa)| {
                     let normal = Vec2::new(-phi.sin(), -phi.cos());
                     (Vec2::new(x, depth - z) + LINE_MOMENT * H * H * kappa * normal, normal)
@@ -359,8 +313,8 @@ mod tests {
             );
             let law = |_, _| angle;
             let at = |gradient: f64| {
-                let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor).under(Vec2::new(0.0, gradient));
-                let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
+                let interface = Interface { gradient: Vec2::new(0.0, gradient), ..interface(&points, &floor) };
+                let fit = InterfaceFit { angle: Some(&law), ..free(&interface) };
                 let near_wall = profile.iter().filter(|(_, z, ..)| depth - z < 0.3);
                 let error = |x: f64, z: f64, exact: f64| fit.curvature(Vec2::new(x, depth - z)).unwrap() - exact;
                 let largest = near_wall.map(|(x, z, _, exact)| error(*x, *z, *exact).abs()).fold(0.0, f64::max);
@@ -375,9 +329,9 @@ mod tests {
     #[test]
     fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
         let points = circle(0.0);
-        let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
+        let interface = interface(&points, &floor);
         let fit = |angle: f64| {
-            InterfaceFit::free(&interface).with_contact_angle(&|_, _| angle).curvature(Vec2::new(1.0, 0.02)).unwrap()
+            InterfaceFit { angle: Some(&|_, _| angle), ..free(&interface) }.curvature(Vec2::new(1.0, 0.02)).unwrap()
         };
         assert!(fit(60_f64.to_radians()) < fit(90_f64.to_radians()));
         assert!(fit(120_f64.to_radians()) > fit(90_f64.to_radians()));

@@ -86,17 +86,11 @@ impl InterfaceLine<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::*;
-    use crate::math::{Bounds, LINE_MOMENT};
-    use crate::sph::domain::Domain;
+    use crate::math::LINE_MOMENT;
     use crate::sph::surface_force::fit::InterfaceFit;
-    use crate::sph::surface_force::points::{InterfacePoint, Resolution};
-    use crate::sph::surface_force::stencils::Interface;
-
-    const H: f64 = 0.15;
-    const RESOLUTION: Resolution = Resolution { spacing: 0.1, h: H };
+    use crate::sph::surface_force::points::InterfacePoint;
+    use crate::sph::surface_force::stencils::fixture::{H, at_rest, directions, interface};
 
     /// A quarter of the plane is solid, its edge at the origin.
     fn wall(x: Vec2) -> (f64, Vec2) {
@@ -112,30 +106,21 @@ mod tests {
     /// Points of the level 1/2 of a drop of radius 1 on the horizontal face that ends at the edge with an angle (rad) to that face.
     fn drop(angle: f64) -> Vec<InterfacePoint> {
         let (center, up) = (Vec2::new(-angle.sin(), -angle.cos()), Vec2::new(-angle.cos(), angle.sin()));
-        (0..400)
-            .map(|i| TAU * f64::from(i) / 400.0)
-            .map(|t| Vec2::new(t.cos(), t.sin()))
-            .map(|n| (center + (1.0 - LINE_MOMENT * H * H) * n, -n))
-            // The rest of the circle is in the solid or beyond the edge.
-            .filter(|(x, _)| x.dot(&up) > 0.0 && wall(*x).0 > 0.0)
-            .map(|(x, normal)| {
-                let (velocity, (wall_distance, wall_normal)) = (Vec2::zeros(), wall(x));
-                InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches: true, weight: 1.0 }
-            })
-            .collect()
+        let circle = directions(0.0).map(|n| (center + (1.0 - LINE_MOMENT * H * H) * n, -n));
+        // The rest of the circle is in the solid or beyond the edge.
+        at_rest(circle.filter(|(x, _)| x.dot(&up) > 0.0), &wall)
     }
 
     /// [Oliver1977]
     #[test]
     fn a_drop_that_ends_at_an_edge_has_one_curvature_at_any_angle_between_those_of_both_faces() {
-        let domain = Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]);
         let law = |_, _| 60_f64.to_radians();
         for degrees in [62.0_f64, 80.0, 112.0, 130.0, 148.0] {
             let points = drop(degrees.to_radians());
-            let interface = Interface::new(&points, &domain, RESOLUTION, &wall);
+            let interface = interface(&points, &wall);
             let pinned_lines: Vec<PinnedLine> =
                 interface.lines().iter().filter_map(|line| line.pinned(60_f64.to_radians())).collect();
-            let fit = InterfaceFit::free(&interface).with_contact_angle(&law).with_pinned_lines(&pinned_lines);
+            let fit = InterfaceFit { interface: &interface, angle: Some(&law), pinned_lines: &pinned_lines };
             for point in points.iter().filter(|p| p.x.norm() < 0.4) {
                 let (kappa, from) = (fit.curvature(point.x).unwrap(), point.x.norm());
                 assert!((kappa - 1.0).abs() < 3e-3, "at {degrees} degrees, {from:.3} from the edge: {kappa}");

@@ -38,15 +38,6 @@ pub(crate) struct InterfacePoint {
     pub(crate) weight: f64,
 }
 
-/// Length scales of the discretization.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Resolution {
-    /// Spacing of the particles dx in m.
-    pub(crate) spacing: f64,
-    /// Smoothing length in m.
-    pub(crate) h: f64,
-}
-
 /// All interface points between moving particles, with images near mirrors, from the smoothed color and its consistent `gradient` in 1/m; `near`
 /// marks moving particles whose smoothed color, or that of a neighbor, is neither 0 nor 1.
 pub(crate) fn interface_points(
@@ -131,8 +122,7 @@ fn reflect(points: &mut Vec<InterfacePoint>, domain: &Domain, reach: f64) {
         for i in 0..points.len() {
             let point = points[i];
             if (point.x[mirror.axis] - mirror.at).abs() < reach {
-                let mut x = point.x;
-                x[mirror.axis] = 2.0 * mirror.at - x[mirror.axis];
+                let x = mirror.position(point.x);
                 let (normal, wall_normal) = (mirror.reflect(point.normal), mirror.reflect(point.wall_normal));
                 let velocity = mirror.velocity(point.velocity);
                 points.push(InterfacePoint { x, normal, velocity, wall_normal, ..point });

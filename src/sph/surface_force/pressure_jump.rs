@@ -8,9 +8,9 @@ use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::parallel::values;
 use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
-use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
+use crate::sph::surface_force::fit::{AngleAt, Fitted, InterfaceFit};
 use crate::sph::surface_force::jump::Jump;
-use crate::sph::surface_force::points::{Resolution, interface_points};
+use crate::sph::surface_force::points::interface_points;
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, pressure_gradient};
 use crate::sph::view::View;
@@ -38,9 +38,12 @@ impl View<'_, BulkFields> {
         let normal = images.reflected_field(normal);
         let moment = pressure_gradient::moment(pairs, &bulk.volume, r_ab, fluids);
         let points = interface_points(self, &color, &normal, &near);
-        let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
-        let at_rest = Interface::new(&points, domain, resolution, &self.config.wall).under(method.curvature_gradient());
-        let interface = Interface { step: self.state.last_dt, ..at_rest };
+        let (spacing, h) = (method.spacing, method.kernel.h);
+        let interface = Interface {
+            gradient: method.curvature_gradient(),
+            step: self.state.last_dt,
+            ..Interface::new(&points, domain, spacing, h, &self.config.wall)
+        };
         let (mut lines, mut pinned) = (Vec::new(), Vec::new());
         if method.wetting.is_some() {
             let detected = interface.lines();
@@ -50,14 +53,11 @@ impl View<'_, BulkFields> {
         let angle_at = |x: Vec2, outward: Vec2| {
             // Not used without a wetting model.
             let Some(model) = self.config.wall_properties.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
-            let line =
-                if model.is_static() { None } else { nearest(&lines, domain, x, outward, LINE_REACH * resolution.h) };
+            let line = if model.is_static() { None } else { nearest(&lines, domain, x, outward, LINE_REACH * h) };
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
-        let mut fit = InterfaceFit::free(&interface);
-        if method.wetting.is_some() {
-            fit = fit.with_contact_angle(&angle_at).with_pinned_lines(&pinned);
-        }
+        let angle = method.wetting.is_some().then_some(&angle_at as &AngleAt);
+        let fit = InterfaceFit { interface: &interface, angle, pinned_lines: &pinned };
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
         let given = given.map(|curvature| Fitted { curvature, constrained: None });
         let side = shepard::into_walls(self.neighborhood, &bulk.fluid_volume, moving, sharp.to_vec());

@@ -7,7 +7,7 @@ use crate::interface::weighted_circle::{WeightedCircle, WeightedPoint};
 use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::points::{InterfacePoint, Resolution};
+use crate::sph::surface_force::points::InterfacePoint;
 
 /// Radius r of the stencil of a fit over h.
 pub(crate) const STENCIL_RADIUS: f64 = 3.0;
@@ -46,21 +46,17 @@ pub(crate) struct Interface<'a> {
 }
 
 impl<'a> Interface<'a> {
-    /// The interface through `points`, sorted into cells.
+    /// The interface through `points`, sorted into cells, without gravity and motion; `spacing` of the particles and smoothing length `h` in m.
     pub(crate) fn new(
         points: &'a [InterfacePoint],
         domain: &'a Domain,
-        Resolution { spacing, h }: Resolution,
+        spacing: f64,
+        h: f64,
         wall: &'a Wall<'a>,
     ) -> Self {
         let positions: Vec<Vec2> = points.iter().map(|p| p.x).collect();
         let cells = Cells::build(&positions, domain, STENCIL_RADIUS * h);
         Self { points, cells, h, spacing, gradient: Vec2::zeros(), step: 0.0, wall, domain }
-    }
-
-    /// The interface under gravity, with the gradient (1/m²) of its curvature at rest.
-    pub(crate) fn under(self, gradient: Vec2) -> Self {
-        Self { gradient, ..self }
     }
 
     /// Index of the nearest point and x − x_p; all equidistant ones, so that a symmetric flow remains symmetric.
@@ -156,5 +152,46 @@ impl<'a> Interface<'a> {
     /// Largest curvature in 1/m.
     pub(super) fn limit(&self) -> f64 {
         LARGEST_CURVATURE / self.h
+    }
+}
+
+#[cfg(test)]
+pub(super) mod fixture {
+    //! Interfaces for tests.
+
+    use std::f64::consts::TAU;
+    use std::sync::LazyLock;
+
+    use super::*;
+    use crate::math::Bounds;
+
+    pub(crate) const H: f64 = 0.15;
+
+    static DOMAIN: LazyLock<Domain> =
+        LazyLock::new(|| Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]));
+
+    pub(crate) fn interface<'a>(points: &'a [InterfacePoint], wall: &'a Wall<'a>) -> Interface<'a> {
+        Interface::new(points, &DOMAIN, 0.1, H, wall)
+    }
+
+    pub(crate) fn floor(x: Vec2) -> (f64, Vec2) {
+        (x.y, Vec2::y())
+    }
+
+    /// Unit vectors in all directions, the first one turned by this share of their distance.
+    pub(crate) fn directions(turned: f64) -> impl Iterator<Item = Vec2> {
+        (0..400).map(move |i| TAU * (f64::from(i) + turned) / 400.0).map(|t| Vec2::new(t.cos(), t.sin()))
+    }
+
+    /// An interface at rest through those of the points, given with their normals, that are outside the wall.
+    pub(crate) fn at_rest(points: impl Iterator<Item = (Vec2, Vec2)>, wall: &Wall) -> Vec<InterfacePoint> {
+        points
+            .map(|(x, normal)| (x, normal, wall(x)))
+            .filter(|(.., (wall_distance, _))| *wall_distance > 0.0)
+            .map(|(x, normal, (wall_distance, wall_normal))| {
+                let velocity = Vec2::zeros();
+                InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches: true, weight: 1.0 }
+            })
+            .collect()
     }
 }

@@ -9,7 +9,6 @@ use crate::sph::components::components;
 use crate::sph::domain::Domain;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::wetting::driving_force;
 use crate::sph::wetting::lines::DetectedLine;
 
 /// Component of the unit normal along the wall below which the interface is parallel to it and has no contact line.
@@ -108,7 +107,7 @@ impl LineParticles {
         self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
     }
 
-    /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eqs. 21-23]. `angles` in rad are those of the wetting law at each line, in the order of detection;
+    /// F_a = f_wns δ_wns,a ν_ns in N/m³, f_wns = σ (cos θ − cos α) from the wetting to the other phase [Huber2013, Eqs. 7, 21-23]. `angles` in rad are those of the wetting law at each line, in the order of detection;
     /// `tension` is σ_wn in N/m.
     pub fn line_force(&self, fields: &LineFields, delta: LineDelta, angles: &[f64], tension: f64) -> Vec<Vec2> {
         let mut force = vec![Vec2::zeros(); fields.weight.len()];
@@ -116,7 +115,7 @@ impl LineParticles {
             let sum: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
             let n = sum * (SMALLEST_LINE * self.integral / norm).max(1.0);
             for p in particles {
-                let f = driving_force(tension, *angle, p.cos_alpha);
+                let f = tension * (angle.cos() - p.cos_alpha);
                 let norm = match delta {
                     // δ_wns,a = |n_a| W(d_s, h)/N, N the sum of V |n| W over the particles of the line [Huber2013, Eqs. 21, 22].
                     LineDelta::Normalized => n,

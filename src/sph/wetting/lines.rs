@@ -213,17 +213,15 @@ mod tests {
         }
     }
 
-    fn track(
-        model: Wetting,
-        wall: f64,
-        before: &[TrackedLine],
-        detected_lines: &[Straight],
-        dt: f64,
-    ) -> Vec<TrackedLine> {
+    /// A straight interface that meets the floor at `x` with an angle in degrees.
+    fn at(x: f64, degrees: f64, speed: f64) -> [Straight; 1] {
+        [Straight { x, angle: degrees.to_radians(), speed }]
+    }
+
+    fn track(model: Wetting, wall: f64, before: &[TrackedLine], detected: &[Straight], dt: f64) -> Vec<TrackedLine> {
         let bounds = Bounds { min: Vec2::repeat(-5.0), max: Vec2::repeat(5.0) };
-        let domain = Domain::new(bounds, [true, false], vec![]);
         let tracker = ContactLineTracker {
-            domain: &domain,
+            domain: &Domain::new(bounds, [true, false], vec![]),
             model: &|_| model,
             wall_velocity: &|_| Vec2::new(wall, 0.0),
             tension: 1.0,
@@ -233,57 +231,48 @@ mod tests {
             h: H,
             mean_over: 1.0,
         };
-        tracker.track(before, detected_lines, dt)
+        tracker.track(before, detected, dt)
     }
 
-    fn degrees(angle: f64) -> f64 {
-        angle.to_radians()
-    }
-
-    fn with_hysteresis() -> Wetting {
-        Wetting::Hysteresis(Hysteresis { advancing_angle_deg: 100.0, receding_angle_deg: 60.0 })
-    }
+    const PINNED: Wetting = Wetting::Hysteresis(Hysteresis { advancing_angle_deg: 100.0, receding_angle_deg: 60.0 });
 
     /// [Dussan1979]
     #[test]
     fn a_line_within_its_range_is_drawn_back_to_its_anchor() {
-        let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+        let start = track(PINNED, 0.0, &[], &at(0.0, 80.0, 0.0), 0.0);
         assert_eq!(start[0].anchor, Vec2::zeros());
-        let off = track(with_hysteresis(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
+        let off = track(PINNED, 0.0, &start, &at(0.01, 80.0, 0.0), 0.1);
         assert_eq!(off[0].anchor, Vec2::zeros());
         // For an interface displaced outwards a larger angle is imposed, which pulls it back.
-        assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
+        assert!(off[0].angle > 80_f64.to_radians() && off[0].angle < 100_f64.to_radians(), "{:?}", off[0]);
     }
 
     /// [Dussan1979]
     #[test]
     fn a_line_beyond_its_range_has_the_bound_and_takes_its_anchor_along() {
-        let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);
-        let off = track(with_hysteresis(), 0.0, &start, &[Straight { x: 0.05, angle: degrees(95.0), speed: 0.0 }], 0.1);
-        assert!((off[0].angle - degrees(100.0)).abs() < 1e-12, "{:?}", off[0]);
+        let start = track(PINNED, 0.0, &[], &at(0.0, 95.0, 0.0), 0.0);
+        let off = track(PINNED, 0.0, &start, &at(0.05, 95.0, 0.0), 0.1);
+        assert!((off[0].angle - 100_f64.to_radians()).abs() < 1e-12, "{:?}", off[0]);
         assert!(off[0].anchor.x > 0.01 && off[0].anchor == off[0].position && off[0].travel > 0.01, "{:?}", off[0]);
     }
 
     #[test]
     fn an_anchor_goes_with_its_wall_and_through_a_periodic_side() {
-        let at = |x: f64| [Straight { x, angle: degrees(80.0), speed: 1.0 }];
-        let mut lines = track(with_hysteresis(), 1.0, &[], &at(4.98), 0.0);
-        for step in 1..=4 {
-            let x = 4.98 + 0.01 * f64::from(step);
-            lines = track(with_hysteresis(), 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }), 0.01);
+        let mut lines = track(PINNED, 1.0, &[], &at(4.98, 80.0, 1.0), 0.0);
+        for x in [4.99, 5.0, 5.01, 5.02] {
+            lines = track(PINNED, 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }, 80.0, 1.0), 0.01);
         }
         let [line] = lines[..] else { panic!("{lines:?}") };
         assert!((line.anchor.x + 4.98).abs() < 1e-9 && line.speed.abs() < 1e-12, "{line:?}");
-        assert!((line.travel - 0.04).abs() < 1e-9 && (line.angle - degrees(80.0)).abs() < 1e-6, "{line:?}");
+        assert!((line.travel - 0.04).abs() < 1e-9 && (line.angle - 80_f64.to_radians()).abs() < 1e-6, "{line:?}");
     }
 
     #[test]
     fn the_speed_is_a_mean_over_time() {
         let young = Wetting::Young(Young { contact_angle_deg: 57.0 });
-        let at = |speed: f64| [Straight { x: 0.0, angle: 1.0, speed }];
-        let mut lines = track(young, 0.0, &[], &at(0.0), 0.0);
+        let mut lines = track(young, 0.0, &[], &at(0.0, 57.0, 0.0), 0.0);
         for _ in 0..100 {
-            lines = track(young, 0.0, &lines, &at(1.0), 0.01);
+            lines = track(young, 0.0, &lines, &at(0.0, 57.0, 1.0), 0.01);
         }
         // One averaging time after a step from 0 to 1.
         assert!((lines[0].speed - (1.0 - (-1.0_f64).exp())).abs() < 1e-9, "{:?}", lines[0]);
@@ -291,9 +280,9 @@ mod tests {
 
     #[test]
     fn a_line_that_is_lost_for_a_moment_keeps_its_anchor() {
-        let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
-        let lost = track(with_hysteresis(), 0.0, &start, &[], 0.5);
+        let start = track(PINNED, 0.0, &[], &at(0.0, 80.0, 0.0), 0.0);
+        let lost = track(PINNED, 0.0, &start, &[], 0.5);
         assert_eq!((lost.len(), lost[0].anchor, lost[0].undetected), (1, start[0].anchor, 0.5));
-        assert!(track(with_hysteresis(), 0.0, &lost, &[], 10.0).is_empty());
+        assert!(track(PINNED, 0.0, &lost, &[], 10.0).is_empty());
     }
 }
