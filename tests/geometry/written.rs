@@ -117,18 +117,33 @@ fn svg_holds_circles_and_arcs_with_their_radii_in_mm() {
 #[test]
 fn dxf_holds_circles_and_bulges_in_mm() {
     let bytes = write(&shapes(), Format::Dxf, Beside::default()).unwrap();
-    let drawing = dxf::Drawing::load(&mut &bytes[..]).unwrap();
-    assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Millimeters);
+    let text = String::from_utf8(bytes).unwrap();
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    assert_eq!(lines.len() % 2, 0);
+    let groups: Vec<[&str; 2]> = lines.chunks(2).map(|pair| [pair[0], pair[1]]).collect();
+    let unit = groups.iter().position(|group| *group == ["9", "$INSUNITS"]).unwrap();
+    assert_eq!(groups[unit + 1], ["70", "4"]);
+    let handles: Vec<&str> =
+        groups.iter().filter(|group| ["5", "105"].contains(&group[0])).map(|group| group[1]).collect();
+    let different: std::collections::BTreeSet<&str> = handles.iter().copied().collect();
+    assert_eq!(handles.len(), different.len(), "{handles:?}");
+    let begin = groups.iter().position(|group| *group == ["2", "ENTITIES"]).unwrap();
+    let entities = groups[begin + 1..].split(|group| group[0] == "0").skip(1);
+    let kinds = groups[begin + 1..].iter().filter(|group| group[0] == "0").map(|group| group[1]);
     let (mut radii, mut bulges) = (Vec::new(), 0);
-    for entity in drawing.entities() {
-        match &entity.specific {
-            dxf::entities::EntityType::Circle(circle) => radii.push(circle.radius),
-            dxf::entities::EntityType::LwPolyline(line) => {
-                assert!(line.is_closed());
+    for (kind, entity) in kinds.zip(entities).take_while(|(kind, _)| *kind != "ENDSEC") {
+        let numbers = |code: &str| {
+            let values = entity.iter().filter(|group| group[0] == code);
+            values.map(|group| group[1].parse::<f64>().unwrap()).collect::<Vec<_>>()
+        };
+        match kind {
+            "CIRCLE" => radii.extend(numbers("40")),
+            "LWPOLYLINE" => {
+                assert_eq!((numbers("70"), numbers("90")[0] as usize), (vec![1.0], numbers("42").len()));
                 // Both ends of the capsule are half circles.
-                bulges += line.vertices.iter().filter(|v| (v.bulge - 1.0).abs() < 1e-12).count();
+                bulges += numbers("42").iter().filter(|&&bulge| (bulge - 1.0).abs() < 1e-12).count();
             }
-            other => panic!("{other:?}"),
+            other => panic!("{other}"),
         }
     }
     assert_eq!((radii, bulges), (vec![0.5, 0.4], 2));

@@ -3,10 +3,6 @@
 //! Each edge of a polygon adds, in every row that it crosses, the area between itself and the right side of the image; the cumulative sum from left to right
 //! is the fraction. Arcs are approximated by chords within 1e-3 of a pixel. Overlapping shapes within a pixel count at most once.
 
-use std::io::Cursor;
-
-use image::{GrayImage, ImageFormat};
-
 use super::error::ExportError;
 use super::sheet::{Sheet, rings_of, sampled};
 use crate::geometry::import::drawing::Ring;
@@ -29,13 +25,15 @@ pub(super) fn png(sheet: &Sheet, pixel: f64) -> Result<Vec<u8>, ExportError> {
     for outline in &sheet.outlines {
         cover(&rings_of(outline), &sheet.frame, pixel, [width, height], &mut share);
     }
-    let image = GrayImage::from_fn(width as u32, height as u32, |column, row| {
-        let solid = share[(height - 1 - row as usize) * width + column as usize].clamp(0.0, 1.0);
-        image::Luma([(255.0 * (1.0 - solid)).round() as u8])
-    });
-    let mut bytes = Cursor::new(Vec::new());
-    image.write_to(&mut bytes, ImageFormat::Png).map_err(|error| ExportError::Library(error.to_string()))?;
-    Ok(bytes.into_inner())
+    let gray = |solid: &f32| (255.0 * (1.0 - solid.clamp(0.0, 1.0))).round() as u8;
+    let pixels: Vec<u8> = share.chunks_exact(width).rev().flatten().map(gray).collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Adaptive);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels));
+    written.map_err(|error| ExportError::Library(error.to_string()))?;
+    Ok(bytes)
 }
 
 /// Adds the fraction of the pixels covered by rings together.

@@ -78,7 +78,7 @@ pub fn write(spec: &GeometrySpec, format: Format, beside: Beside) -> Result<Vec<
     Ok(match format {
         Format::Toml => text::toml(spec, beside.depth)?.into_bytes(),
         Format::Svg => svg::svg(&Sheet::of(spec)).into_bytes(),
-        Format::Dxf => dxf::dxf(&Sheet::of(spec))?,
+        Format::Dxf => dxf::dxf(&Sheet::of(spec)).into_bytes(),
         Format::Wkt => text::well_known_text(&Sheet::of(spec)).into_bytes(),
         Format::GeoJson => text::geojson(&Sheet::of(spec))?.into_bytes(),
         Format::Discs => text::discs(&Sheet::of(spec))?.into_bytes(),

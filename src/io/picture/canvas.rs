@@ -2,8 +2,6 @@
 
 use crate::diagram::colors;
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont};
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, StrokeDash,
     Transform,
@@ -189,9 +187,13 @@ impl Canvas {
         let colors = self.pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
         let (width, height) = (self.pixels.width(), self.pixels.height());
         let mut bytes = Vec::new();
-        PngEncoder::new(&mut bytes)
-            .write_image(&colors.collect::<Vec<u8>>(), width, height, ExtendedColorType::Rgb8)
-            .map_err(|error| PictureError::Encode(error.to_string()))?;
+        let mut encoder = png::Encoder::new(&mut bytes, width, height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_filter(png::Filter::Adaptive);
+        let colors: Vec<u8> = colors.collect();
+        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&colors));
+        written.map_err(|error| PictureError::Encode(error.to_string()))?;
         Ok(bytes)
     }
 }

@@ -174,48 +174,6 @@ fn units_are_those_of_the_header_and_places_those_of_handles() {
     assert!(read(old.as_bytes(), None, None).unwrap().unit.is_none());
 }
 
-/// A drawing of another program, written by the crate `dxf`.
-fn by_other_program() -> dxf::Drawing {
-    use dxf::entities::{Circle, Entity, EntityType, Insert, LwPolyline};
-    use dxf::{Block, LwPolylineVertex, Point};
-    let mut drawing = dxf::Drawing::new();
-    drawing.header.version = dxf::enums::AcadVersion::R2010;
-    drawing.header.default_drawing_units = dxf::enums::Units::Microns;
-    let circle = |x: f64| {
-        Entity::new(EntityType::Circle(Circle { center: Point::new(x, 0.5, 0.0), radius: 0.25, ..Circle::default() }))
-    };
-    for i in 0..100 {
-        drawing.add_entity(circle(f64::from(i)));
-    }
-    let vertex = |x, y, bulge| LwPolylineVertex { x, y, bulge, ..LwPolylineVertex::default() };
-    let mut outline = LwPolyline {
-        vertices: vec![vertex(0.0, 0.0, 0.0), vertex(2.0, 0.0, 1.0), vertex(2.0, 2.0, 0.0)],
-        ..LwPolyline::default()
-    };
-    outline.set_is_closed(true);
-    drawing.add_entity(Entity::new(EntityType::LwPolyline(outline)));
-    drawing.add_block(Block { name: "post".to_owned(), entities: vec![circle(1.0)], ..Block::default() });
-    let insert = Insert { name: "post".to_owned(), location: Point::new(0.0, 7.0, 0.0), ..Insert::default() };
-    drawing.add_entity(Entity::new(EntityType::Insert(insert)));
-    drawing
-}
-
-#[test]
-fn text_and_binary_files_of_another_program_are_the_same_drawing() {
-    let other = by_other_program();
-    let (mut text, mut binary) = (Vec::new(), Vec::new());
-    other.save(&mut text).unwrap();
-    other.save_binary(&mut binary).unwrap();
-    let [text, binary] = [text, binary].map(|bytes| read(&bytes, None, None).unwrap());
-    assert_eq!(text.entities, binary.entities);
-    assert_eq!(text.unit.as_ref().map(|unit| unit.meters), Some(1e-6));
-    assert_eq!(text.unit, binary.unit);
-    assert_eq!(text.entities.len(), 102);
-    assert_eq!(text.entities[7].outline, Outline::Disc { center: Vec2::new(7.0, 0.5), radius: 0.25 });
-    assert!((area(&text.entities[100].outline) - (2.0 + 0.5 * PI)).abs() < 1e-14);
-    assert_eq!(text.entities[101].outline, Outline::Disc { center: Vec2::new(1.0, 7.5), radius: 0.25 });
-}
-
 #[test]
 fn bad_files_are_refused_with_place_and_reason() {
     let chain: String =

@@ -4,7 +4,7 @@
 
 use std::io::Cursor;
 
-use image::{DynamicImage, ImageFormat, ImageReader};
+use png::{BitDepth, DecodingError, Transformations};
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
@@ -86,27 +86,38 @@ fn check_size(width: u32, height: u32) -> Result<(), Refusal> {
 }
 
 fn png(bytes: &[u8]) -> Result<Gray, Refusal> {
-    let unreadable = |error: image::ImageError| refusal(error.to_string(), "a complete PNG file: export it again");
-    let size = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png).into_dimensions().map_err(unreadable)?;
-    check_size(size.0, size.1)?;
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    let mut limits = image::Limits::default();
-    limits.max_alloc = Some(MOST_BYTES);
-    reader.limits(limits);
-    let image = reader.decode().map_err(unreadable)?;
-    let values = match &image {
-        DynamicImage::ImageLuma8(gray) => gray.as_raw().iter().map(|&v| f32::from(v) / 255.0).collect(),
-        DynamicImage::ImageLuma16(gray) => gray.as_raw().iter().map(|&v| f32::from(v) / 65535.0).collect(),
-        DynamicImage::ImageLumaA8(_) | DynamicImage::ImageLumaA16(_) => {
-            image.to_luma_alpha16().pixels().map(|p| on_white(f32::from(p[0]), f32::from(p[1]) / 65535.0)).collect()
-        }
-        _ => image
-            .to_rgba16()
-            .pixels()
-            .map(|p| on_white(luminance(f32::from(p[0]), f32::from(p[1]), f32::from(p[2])), f32::from(p[3]) / 65535.0))
-            .collect(),
+    let unreadable = |error: DecodingError| {
+        let found = match error {
+            DecodingError::Format(error) => format!("Format error decoding Png: {error}"),
+            DecodingError::LimitsExceeded => "Insufficient memory".to_owned(),
+            other => other.to_string(),
+        };
+        refusal(found, "a complete PNG file: export it again")
     };
-    Ok(Gray::from_rows_down(size, values))
+    let limits = png::Limits { bytes: MOST_BYTES as usize };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    // Palettes and samples of less than 8 bits as 8 bits.
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(unreadable)?;
+    let size = reader.info().size();
+    check_size(size.0, size.1)?;
+    let mut data = vec![0; reader.output_buffer_size().unwrap_or_default()];
+    reader.next_frame(&mut data).map_err(unreadable)?;
+    let (color, depth) = reader.output_color_type();
+    let sample = |k: usize| match depth {
+        BitDepth::Sixteen => f32::from(u16::from_be_bytes([data[2 * k], data[2 * k + 1]])),
+        _ => f32::from(257 * u16::from(data[k])),
+    };
+    let channels = color.samples();
+    let value = |pixel: usize| {
+        let first = pixel * channels;
+        let gray =
+            if channels < 3 { sample(first) } else { luminance(sample(first), sample(first + 1), sample(first + 2)) };
+        let alpha = if channels % 2 == 0 { sample(first + channels - 1) / 65535.0 } else { 1.0 };
+        on_white(gray, alpha)
+    };
+    let pixels = size.0 as usize * size.1 as usize;
+    Ok(Gray::from_rows_down(size, (0..pixels).map(value).collect()))
 }
 
 fn luminance(r: f32, g: f32, b: f32) -> f32 {
