@@ -137,9 +137,7 @@ pub(crate) fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
 
 #[cfg(test)]
 mod tests {
-    use toml::Value;
-
-    use super::super::mock::{complete, study};
+    use super::super::mock::{complete, number, study};
     use super::super::verdict::{Verdict, judgments};
     use super::*;
 
@@ -151,14 +149,9 @@ mod tests {
              [[trend]]\nmeasure = 'm'\nreference = 'angle'\nalong = 'dx'\norder = 1.9\n",
         );
         // Errors of second order at 30 degrees, of first order at 60.
-        let results = complete(&study, |run| {
-            let (angle, dx) =
-                (run.value("angle").and_then(Value::as_integer), run.value("dx").and_then(Value::as_float));
-            match (angle, dx) {
-                (Some(30), Some(dx)) => 30.0 - dx * dx,
-                (_, Some(dx)) => 60.0 + dx,
-                _ => f64::NAN,
-            }
+        let results = complete(&study, |run| match number(run, "dx") {
+            dx if number(run, "angle") == 30.0 => 30.0 - dx * dx,
+            dx => 60.0 + dx,
         });
         let found = convergences(&study, &study.trends[0], &results);
         assert_eq!(found.iter().map(|c| c.of.as_str()).collect::<Vec<_>>(), ["angle=30", "angle=60"]);
@@ -196,7 +189,7 @@ mod tests {
             "[[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [0.4, 0.2]\n\
              [[expect]]\nmeasure = 'm'\nvalue = 1.0\ntolerance = 0.01\nwhere = { dx = 0.2 }\n",
         );
-        let results = complete(&study, |run| 1.0 + run.value("dx").and_then(Value::as_float).unwrap().powi(3));
+        let results = complete(&study, |run| 1.0 + number(run, "dx").powi(3));
         let found = all(&study, &results);
         assert_eq!(found.len(), 1);
         // Rounding of 1.008 leaves fourteen digits of the error.

@@ -166,7 +166,7 @@ fn legend(curve: &Curve, line: &Line) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mock::{complete, study};
+    use super::super::mock::{complete, number, study};
     use super::*;
 
     #[test]
@@ -204,10 +204,7 @@ mod tests {
              [[report.curve]]\nx = 'dx'\ny = 'm'\nseries = 'angle'\nreference = 'angle'\nerror = true\n\
              x-scale = 'logarithmic'\ny-scale = 'logarithmic'\n",
         );
-        let results = complete(&study, |run| {
-            run.quantity(&Quantity::Parameter("angle".into())).unwrap()
-                + run.quantity(&Quantity::Parameter("dx".into())).unwrap().powi(2)
-        });
+        let results = complete(&study, |run| number(run, "angle") + number(run, "dx").powi(2));
         let found = lines(&study.report.curves[0], &results);
         // The spacing 0 cannot be shown on a logarithmic axis.
         assert_eq!(found.len(), 2);

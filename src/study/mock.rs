@@ -5,6 +5,7 @@ use super::load::load;
 use super::results::{RunReport, RunResult, RunState, Total, Unknowns};
 use super::run::Run;
 use super::runs::runs;
+use super::values::number_of;
 use crate::run::report::{Motion, Reading, Status};
 
 /// A study with these axes, expectations and curves.
@@ -19,6 +20,11 @@ pub(crate) fn study(text: &str) -> Study {
 pub(crate) fn set_moving(result: &mut RunResult, rate: f64) {
     let RunState::Complete(report) = &mut result.state else { panic!("complete") };
     report.measures.get_mut("m").unwrap().not_at_rest = Some(Motion { rate, unit: "deg/s".into() });
+}
+
+/// The number of a parameter in a run.
+pub(crate) fn number(run: &Run, name: &str) -> f64 {
+    run.value(name).and_then(number_of).unwrap()
 }
 
 /// Complete runs with the measure `m` in degrees given by `value`, with an uncertainty of 0.1; NaN is not measured.

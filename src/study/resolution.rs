@@ -64,9 +64,7 @@ impl Resolution {
 
 #[cfg(test)]
 mod tests {
-    use toml::Value;
-
-    use super::super::mock::{complete, study};
+    use super::super::mock::{complete, number, study};
     use super::*;
 
     #[test]
@@ -75,17 +73,14 @@ mod tests {
             "[[axis]]\nname = 'angle'\nkey = 'a'\nvalues = [30, 60]\n\
              [[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [0.1, 0.4, 0.2]\n",
         );
-        let dx = |run: &super::super::run::Run| run.value("dx").and_then(Value::as_float).unwrap();
-        let results = complete(&study, |run| {
-            if run.value("angle").and_then(Value::as_integer) == Some(30) {
-                30.0 - dx(run)
-            } else {
-                60.0 + dx(run).powi(2)
-            }
+        let results = complete(&study, |run| match number(run, "dx") {
+            dx if number(run, "angle") == 30.0 => 30.0 - dx,
+            dx => 60.0 + dx.powi(2),
         });
         let resolution = Resolution::of(&study, &results);
         for result in &results {
-            let error = if result.run.index <= 3 { dx(&result.run) } else { dx(&result.run).powi(2) };
+            let dx = number(&result.run, "dx");
+            let error = if result.run.index <= 3 { dx } else { dx.powi(2) };
             let found = resolution.uncertainty(result, "m").unwrap();
             assert!((found / error - 0.625).abs() < 1e-9, "{found} and {error}");
         }
@@ -98,7 +93,7 @@ mod tests {
             "[[axis]]\npair = [{ name = 'omega', key = 'a', values = [1, 1, 1, 10] }, \
              { name = 'dx', key = 'sph.spacing', values = [0.4, 0.2, 0.1, 0.4] }, { name = 'n', values = [1, 2, 4, 1] }]\n",
         );
-        let results = complete(&study, |run| 1.0 + run.value("dx").and_then(Value::as_float).unwrap());
+        let results = complete(&study, |run| 1.0 + number(run, "dx"));
         let resolution = Resolution::of(&study, &results);
         let found = results.iter().map(|result| resolution.uncertainty(result, "m"));
         assert_eq!(found.map(|uncertainty| uncertainty.is_some()).collect::<Vec<_>>(), [true, true, true, false]);

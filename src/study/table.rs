@@ -153,7 +153,7 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mock::{complete, study};
+    use super::super::mock::{complete, number, study};
     use super::super::results::RunState;
     use super::*;
 
@@ -199,7 +199,7 @@ mod tests {
     fn three_spacings_widen_the_bars() {
         let study =
             study("[[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [4, 2, 1]\n[report]\nmeasures = ['m']\n");
-        let results = complete(&study, |run| 1.0 + run.value("dx").and_then(toml::Value::as_integer).unwrap() as f64);
+        let results = complete(&study, |run| 1.0 + number(run, "dx"));
         let csv = String::from_utf8(full(&study, &results, &Resolution::of(&study, &results)).csv().unwrap()).unwrap();
         let known: Vec<f64> = csv.lines().skip(1).map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
         assert!(csv.starts_with("run,dx,status,m,m-uncertainty,m-discretization-uncertainty\n"), "{csv}");

@@ -177,7 +177,7 @@ impl CaseWriter {
         for (name, text) in texts {
             let name = format!("{name}.toml");
             let path = self.cases.join(&name);
-            if write_case(&path, &text, self.digests.get(&name))? == Case::Kept {
+            if !write_case(&path, &text, self.digests.get(&name))? {
                 self.kept.push(path.clone());
             }
             self.digests.insert(name.clone(), digest(text.as_bytes()));
@@ -194,26 +194,20 @@ impl CaseWriter {
     }
 }
 
-#[derive(PartialEq, Eq)]
-enum Case {
-    Written,
-    Kept,
-}
-
 fn digest(bytes: &[u8]) -> String {
     format!("{:016x}", fnv1a(bytes))
 }
 
-/// Writes a case unless a user has changed it.
-fn write_case(path: &Path, text: &str, before: Option<&String>) -> Result<Case, PlanError> {
+/// Writes a case unless a user has changed it; returns whether it was written.
+fn write_case(path: &Path, text: &str, before: Option<&String>) -> Result<bool, PlanError> {
     let there = std::fs::read(path).ok().map(|bytes| digest(&bytes));
     let (new, changed) = (digest(text.as_bytes()), there.is_some() && there.as_ref() != before);
     match (changed, before == Some(&new)) {
-        (true, true) => Ok(Case::Kept),
+        (true, true) => Ok(false),
         (true, false) if there.as_ref() != Some(&new) => Err(PlanError::Changed(path.to_path_buf())),
         _ => {
             atomic::write(path, text.as_bytes())?;
-            Ok(Case::Written)
+            Ok(true)
         }
     }
 }

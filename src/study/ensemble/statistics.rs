@@ -200,7 +200,7 @@ impl Measured<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::mock::{complete, study};
+    use crate::study::mock::{complete, number, study};
 
     const INPUTS: &str = "[sampling]\ncount = 512\nindices = true\n\
         [[axis]]\nkey = 'a'\ndistribution = { uniform = { from = 1.0, to = 2.0 } }\n\
@@ -210,8 +210,7 @@ mod tests {
     #[test]
     fn indices_of_a_product_are_those_in_closed_form() {
         let study = study(INPUTS);
-        let value = |run: &crate::study::run::Run, name: &str| run.value(name).and_then(toml::Value::as_float).unwrap();
-        let results = complete(&study, |run| value(run, "a") * value(run, "b"));
+        let results = complete(&study, |run| number(run, "a") * number(run, "b"));
         let found = statistics(&study, &results, FULL).unwrap();
         // For uniform factors: means 1.5 and 2, variances 1/12 and 1/3.
         let ([m, n], [v, w]) = ([1.5, 2.0], [1.0 / 12.0, 1.0 / 3.0]);
