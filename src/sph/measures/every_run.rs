@@ -105,11 +105,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         let angle = s.observed.angle();
         let method = how_the_angle_was_measured(s);
         found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
-        let models = s
-            .observed
-            .contact_lines
-            .iter()
-            .filter_map(|line| s.flow.config.wall_properties.model(&s.flow.config.method, line.position));
+        let models = s.observed.contact_lines.iter().filter_map(|line| s.flow.config.wetting_at(line.position));
         let angles: Vec<f64> = models.map(|model| model.static_angle().to_degrees()).collect();
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
         let method = "mean over the contact lines of the static angle of the wetting model at their positions";
