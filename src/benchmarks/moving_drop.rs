@@ -41,8 +41,7 @@ fn ahead(flow: &Flow, lines: &[TrackedLine]) -> Option<Vec2> {
     let along = lines.first()?.outward;
     let m = &flow.config.method;
     let weight = (m.wetting_fluid.density - m.other_fluid.density) * m.gravity;
-    let wall =
-        lines.iter().map(|line| flow.config.wall_properties.velocity(line.position)).sum::<Vec2>() / lines.len() as f64;
+    let wall = lines.iter().map(|line| flow.config.wall_velocity(line.position)).sum::<Vec2>() / lines.len() as f64;
     let given = [weight, stream::given(flow, wall)].into_iter();
     let driving = given.chain(flow.state.gone).find(|by| by.dot(&along).abs() > DRIVEN * by.norm())?;
     Some(along * driving.dot(&along).signum())

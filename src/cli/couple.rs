@@ -170,8 +170,8 @@ fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<Stri
 fn read(folder: &Path) -> Result<NetworkState, Failure> {
     let path = folder.join("at-end.json");
     let text =
-        std::fs::read_to_string(&path).map_err(|error| Failure::new(USAGE, &format!("{}: {error}", path.display())))?;
-    NetworkState::read(&text).map_err(|error| Failure::new(BUG, &format!("{}: {error}", path.display())))
+        std::fs::read_to_string(&path).map_err(|error| Failure::new(USAGE, format!("{}: {error}", path.display())))?;
+    NetworkState::read(&text).map_err(|error| Failure::new(BUG, format!("{}: {error}", path.display())))
 }
 
 /// Fraction of the elements with the same phase in both.

@@ -13,7 +13,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<u8, Failure> {
     let default = if arguments.pack.pack.is_some() { "pack.toml" } else { "case.toml" };
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(default));
     if file.exists() {
-        return Err(Failure::new(USAGE, &format_args!("{} exists; name another file", file.display())));
+        return Err(Failure::new(USAGE, format_args!("{} exists; name another file", file.display())));
     }
     if let Some(kind) = arguments.pack.pack {
         return new_pack::new_pack(kind, arguments, &file);

@@ -115,7 +115,7 @@ fn ending(finished: &Finished) -> Result<u8, Failure> {
         Status::Interrupted => Ok(INTERRUPTED),
         Status::ExpectationFailed => Ok(EXPECTATION_FAILED),
         Status::Failed => {
-            Err(Failure::new(SOLVER_FAILED, &finished.report.error.as_deref().unwrap_or("the solver failed")))
+            Err(Failure::new(SOLVER_FAILED, finished.report.error.as_deref().unwrap_or("the solver failed")))
         }
     }
 }

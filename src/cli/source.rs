@@ -88,7 +88,7 @@ fn of_options(problems: &[Problem]) -> Failure {
         .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
         .map(|line| line.trim_end_matches("; ").to_owned())
         .collect();
-    Failure::new(BAD_INPUT, &lines.join("\n"))
+    Failure::new(BAD_INPUT, lines.join("\n"))
 }
 
 /// Refuses an invalid depth in m for these shapes.
@@ -108,12 +108,12 @@ pub(crate) fn load_shapes(
     let is_case = is_case_file(path);
     if is_case && *options != Options::default() {
         let message = "a case has its own import options: set the keys of its [geometry]";
-        return Err(Failure::new(USAGE, &message));
+        return Err(Failure::new(USAGE, message));
     }
     let (geometry, spec, depth) = match (is_case, periodic) {
         (true, Some(_)) => {
             let message = "a case has its own periodic sides: leave out --periodic";
-            return Err(Failure::new(USAGE, &message));
+            return Err(Failure::new(USAGE, message));
         }
         (true, None) => {
             let set: Vec<String> = depth.iter().map(|depth| format!("geometry.depth={depth:?}")).collect();
@@ -134,7 +134,7 @@ pub(crate) fn load_shapes(
             at("uniting the shapes");
             let problems = spec.periodic_problems(periodic.unwrap_or_default());
             if !problems.is_empty() {
-                return Err(Failure::new(BAD_INPUT, &GeometryError::Invalid(problems)));
+                return Err(Failure::new(BAD_INPUT, GeometryError::Invalid(problems)));
             }
             let geometry = Geometry::new(&spec).map_err(Failure::with(BAD_INPUT))?;
             (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec, depth)

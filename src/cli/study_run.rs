@@ -29,7 +29,7 @@ const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
 pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     if let Some(index) = arguments.index {
         let [study] = arguments.files.studies.as_slice() else {
-            return Err(Failure::new(USAGE, &"--index is the number of a run of one study; name that study alone"));
+            return Err(Failure::new(USAGE, "--index is the number of a run of one study; name that study alone"));
         };
         return one(arguments, study, index.get());
     }

@@ -21,7 +21,7 @@ use crate::study::values::{number_of, shown};
 pub(crate) fn run(arguments: &StudyRunArguments, opened: &Opened, ensemble: &Ensemble) -> Result<u8, Failure> {
     if arguments.execution.engine == EngineKind::Slurm {
         let message = "samples of networks run within one process; for a job array set processes = true in [sampling]";
-        return Err(Failure::new(USAGE, &message));
+        return Err(Failure::new(USAGE, message));
     }
     let flag = interrupt::flag();
     tell(format_args!("{} -> {}", opened.study.title, opened.folder.root().display()));

@@ -1,11 +1,9 @@
 //! The printed summary of a run: prescribed and measured contact angle, measures, numbers, files.
 
-use std::fmt::Write as _;
-
 use super::output::{duration, readable};
 use crate::case::{Case, Model};
 use crate::run::execute::Finished;
-use crate::run::report::{Reading, Report, Status};
+use crate::run::report::{Reading, Report, Status, Verdict};
 use crate::run::steady::Steadiness;
 use crate::solver::Clock;
 
@@ -15,37 +13,28 @@ const ANGLE: &str = "contact-angle-deg";
 /// The summary of a run as lines of text.
 pub(crate) fn summary(finished: &Finished) -> String {
     let report = &finished.report;
-    let mut text = format!("{}\n{}\n", report.case.title, ending(report));
-    push_angles(&mut text, report);
-    push_measures(&mut text, report);
-    push_expectations(&mut text, report);
-    push_numbers(&mut text, report);
-    if let Some(depth) = &report.depth {
-        let _ = writeln!(text, "  {:<11} {depth}", "depth");
-    }
-    for warning in &report.warnings {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "  {:<11} {warning}", "WARNING");
-    }
+    let row = |name: &str, value: &str| format!("  {name:<11} {value}");
     let show = |name: &str| finished.folder.join(name).display().to_string();
     let picture = match &finished.picture {
         Ok(path) => path.display().to_string(),
         Err(error) => format!("none: {error}"),
     };
-    for (name, value) in [
-        (
-            "ParaView",
-            show(if matches!(report.case.model, Model::Network(_)) { "regions.pvd" } else { "particles.pvd" }),
-        ),
-        ("picture", picture),
-        ("series", show("series.csv")),
-        ("report", show("report.json")),
-        ("wall time", duration(report.wall_time_s.total)),
-    ] {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "  {name:<11} {value}");
-    }
-    text
+    let frames = if matches!(report.case.model, Model::Network(_)) { "regions.pvd" } else { "particles.pvd" };
+    let mut lines = vec![report.case.title.clone(), ending(report)];
+    lines.extend(angles(report));
+    lines.extend(measures(report));
+    lines.extend(report.expectations.iter().map(expectation));
+    lines.extend(numbers(report));
+    lines.extend(report.depth.iter().map(|depth| row("depth", depth)));
+    lines.extend(report.warnings.iter().map(|warning| row("WARNING", warning)));
+    lines.extend([
+        row("ParaView", &show(frames)),
+        row("picture", &picture),
+        row("series", &show("series.csv")),
+        row("report", &show("report.json")),
+        row("wall time", &duration(report.wall_time_s.total)),
+    ]);
+    lines.join("\n") + "\n"
 }
 
 fn ending(report: &Report) -> String {
@@ -104,47 +93,38 @@ fn with_uncertainty(reading: &Reading) -> String {
     found.trim_end().to_owned() + short_method(&reading.method) + &motion
 }
 
-fn push_angles(text: &mut String, report: &Report) {
-    let measured = report.measures.get(ANGLE);
-    if let Some(requested) = requested_angle(&report.case) {
-        let measured = match measured {
-            Some(reading) if reading.value.is_some() => format!("measured {}", with_uncertainty(reading)),
-            Some(reading) => with_uncertainty(reading),
-            None => "not measured".into(),
-        };
-        let _ = writeln!(text, "  contact angle through the wetting phase: requested {requested} deg, {measured}");
-    }
+fn angles(report: &Report) -> Option<String> {
+    let requested = requested_angle(&report.case)?;
+    let measured = match report.measures.get(ANGLE) {
+        Some(reading) if reading.value.is_some() => format!("measured {}", with_uncertainty(reading)),
+        Some(reading) => with_uncertainty(reading),
+        None => "not measured".into(),
+    };
+    Some(format!("  contact angle through the wetting phase: requested {requested} deg, {measured}"))
 }
 
-fn push_measures(text: &mut String, report: &Report) {
+fn measures(report: &Report) -> impl Iterator<Item = String> {
     let is_requested = requested_angle(&report.case).is_some();
     let width = report.measures.keys().map(String::len).max().unwrap_or(0);
-    for (name, reading) in report.measures.iter().filter(|(name, _)| !(is_requested && *name == ANGLE)) {
-        let _ = writeln!(text, "  {name:<width$}  {}", with_uncertainty(reading));
-    }
+    let shown = report.measures.iter().filter(move |(name, _)| !(is_requested && *name == ANGLE));
+    shown.map(move |(name, reading)| format!("  {name:<width$}  {}", with_uncertainty(reading)))
 }
 
-fn push_expectations(text: &mut String, report: &Report) {
-    for verdict in &report.expectations {
-        let word = match verdict.pass {
-            Some(true) => "met   ",
-            Some(false) => "MISSED",
-            None => "open  ",
-        };
-        let measured = verdict.measured.map_or("not measured".to_owned(), readable);
-        let (value, tolerance) = (readable(verdict.value), readable(verdict.tolerance));
-        let _ = writeln!(text, "  {word}  {}: expected {value} +- {tolerance}, measured {measured}", verdict.measure);
-    }
+fn expectation(verdict: &Verdict) -> String {
+    let word = match verdict.pass {
+        Some(true) => "met   ",
+        Some(false) => "MISSED",
+        None => "open  ",
+    };
+    let measured = verdict.measured.map_or("not measured".to_owned(), readable);
+    let (value, tolerance) = (readable(verdict.value), readable(verdict.tolerance));
+    format!("  {word}  {}: expected {value} +- {tolerance}, measured {measured}", verdict.measure)
 }
 
-fn push_numbers(text: &mut String, report: &Report) {
-    if report.numbers.is_empty() {
-        return;
-    }
-    let numbers: Vec<String> =
-        report.numbers.iter().map(|number| format!("{} {}", number.symbol, readable(number.value))).collect();
-    let length = report.length_of_numbers.name;
-    let _ = writeln!(text, "  {}  (L: {length}, U: fastest speed recorded)", numbers.join("  "));
+fn numbers(report: &Report) -> Option<String> {
+    let numbers = report.numbers.iter().map(|number| format!("{} {}", number.symbol, readable(number.value)));
+    let (numbers, length) = (numbers.collect::<Vec<_>>().join("  "), report.length_of_numbers.name);
+    (!numbers.is_empty()).then(|| format!("  {numbers}  (L: {length}, U: fastest speed recorded)"))
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ pub(crate) fn pool(requested: Option<NonZeroUsize>) -> Result<rayon::ThreadPool,
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .map_err(|error| Failure::new(USAGE, &format_args!("cannot start {threads} threads: {error}; use fewer")))
+        .map_err(|error| Failure::new(USAGE, format_args!("cannot start {threads} threads: {error}; use fewer")))
 }
 
 /// Limits loops outside of a pool to the cores, too.

@@ -18,7 +18,8 @@ const MOST_MISTAKES: usize = 50;
 /// A parsed file.
 #[derive(Debug, Clone)]
 pub struct Document {
-    name: String,
+    /// The name of the file in messages.
+    pub(super) name: String,
     text: Arc<str>,
     overrides: Overrides,
     renamed: &'static [Renamed],
@@ -117,16 +118,11 @@ impl Document {
 
     /// The overrides, each with its first byte after the file's text.
     fn bases(&self) -> impl Iterator<Item = (usize, &Override)> {
-        self.overrides.entries().iter().scan(self.text.len() + 1, |next, entry| {
+        self.overrides.entries.iter().scan(self.text.len() + 1, |next, entry| {
             let base = *next;
             *next += entry.text.len() + 1;
             Some((base, entry))
         })
-    }
-
-    /// The name of the file in messages.
-    pub(crate) fn name(&self) -> &str {
-        &self.name
     }
 
     /// A mistake at a byte range of the file or of an override.

@@ -34,7 +34,7 @@ impl Mistake {
             message: shortened(&message, LONGEST),
             name: name.to_owned(),
             location: None,
-            help: non_empty(help),
+            help: (!help.is_empty()).then(|| shortened(help, LONGEST)),
             excerpt: None,
             span: None,
         }
@@ -54,12 +54,10 @@ impl Mistake {
         let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
         let (excerpt, span) = Excerpt::new(name, text, start..end, (line - 1, column - 1));
         Self {
-            message: shortened(&problem.0, LONGEST),
-            name: name.to_owned(),
             location: Some((line, column)),
-            help: non_empty(&problem.1),
             excerpt: Some(excerpt),
             span: Some((span.start, span.len()).into()),
+            ..Self::of_file(name, problem.0, &problem.1)
         }
     }
 
@@ -103,10 +101,6 @@ fn summary(mistakes: &[Mistake]) -> String {
         [one] => format!("a mistake in {}", shortened(&one.name, LONGEST)),
         _ => format!("{} mistakes", mistakes.len()),
     }
-}
-
-fn non_empty(text: &str) -> Option<String> {
-    (!text.is_empty()).then(|| shortened(text, LONGEST))
 }
 
 /// The last character boundary at or before `index`.

@@ -11,7 +11,7 @@ use super::tree::Container;
 /// The overrides of a command line, in their order; a later one wins.
 #[derive(Debug, Clone, Default)]
 pub struct Overrides {
-    entries: Vec<Override>,
+    pub(super) entries: Vec<Override>,
 }
 
 /// One `KEY=VALUE`.
@@ -41,10 +41,6 @@ impl Overrides {
             }
         }
         if mistakes.is_empty() { Ok(Self { entries }) } else { Err(InputError { mistakes }) }
-    }
-
-    pub(super) fn entries(&self) -> &[Override] {
-        &self.entries
     }
 }
 

@@ -96,7 +96,7 @@ impl<T> Reading<'_, T> {
             } else {
                 "there may be more mistakes".to_owned()
             };
-            mistakes.push(Mistake::of_file(self.document.name(), more, ""));
+            mistakes.push(Mistake::of_file(&self.document.name, more, ""));
         }
         mistakes
     }

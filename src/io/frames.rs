@@ -48,7 +48,7 @@ impl FrameList {
 
     /// The mark of the list so far.
     pub(crate) fn mark(&self) -> Mark {
-        self.journal.mark()
+        self.journal.mark
     }
 
     /// Writes a file and records it.
@@ -56,8 +56,8 @@ impl FrameList {
         atomic::write(&self.folder.join(file), content)?;
         let mut writer = csv::WriterBuilder::new().has_headers(self.mark().bytes == 0).from_writer(Vec::<u8>::new());
         let written = Written { time, file: file.to_owned(), bytes: content.len(), checksum: fnv1a(content) };
-        writer.serialize(written).map_err(FileError::format(self.journal.path()))?;
-        let line = writer.into_inner().map_err(FileError::format(self.journal.path()))?;
+        writer.serialize(written).map_err(FileError::format(&self.journal.path))?;
+        let line = writer.into_inner().map_err(FileError::format(&self.journal.path))?;
         self.journal.append(&line)
     }
 }

@@ -44,10 +44,11 @@ impl Mark {
 /// An append-only file.
 #[derive(Debug)]
 pub(crate) struct Journal {
-    path: PathBuf,
+    pub(crate) path: PathBuf,
     /// `None` until the first entry.
     file: Option<File>,
-    mark: Mark,
+    /// The extent so far.
+    pub(crate) mark: Mark,
 }
 
 impl Journal {
@@ -67,25 +68,12 @@ impl Journal {
         Ok(journal)
     }
 
-    /// The file.
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The extent so far.
-    pub(crate) fn mark(&self) -> Mark {
-        self.mark
-    }
-
     /// Appends bytes.
     ///
     /// # Errors
     /// [`FileError::Write`]; then the file is as before, as far as the system allows.
     pub(crate) fn append(&mut self, piece: &[u8]) -> Result<(), FileError> {
-        if self.file.is_none() {
-            return self.replace(piece);
-        }
-        let Some(file) = &mut self.file else { return Ok(()) };
+        let Some(file) = &mut self.file else { return self.replace(piece) };
         if let Err(source) = file.write_all(piece) {
             // Best effort: the first error is the one to report.
             let _ = file.set_len(self.mark.bytes);
@@ -140,14 +128,14 @@ mod tests {
         let mut journal = Journal::new(path.clone());
         journal.append(b"a,b\n").unwrap();
         journal.append(b"1,2\n").unwrap();
-        let mark = journal.mark();
+        let mark = journal.mark;
         journal.append(b"3,4\n").unwrap();
         journal.append(b"5,").unwrap();
         assert_eq!(read(&path, mark).unwrap(), b"a,b\n1,2\n");
         let mut journal = Journal::resume(path.clone(), mark).unwrap();
         journal.append(b"3,4\n").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"a,b\n1,2\n3,4\n");
-        assert_eq!(journal.mark(), Mark::after(b"a,b\n1,2\n3,4\n"));
+        assert_eq!(journal.mark, Mark::after(b"a,b\n1,2\n3,4\n"));
     }
 
     #[test]
@@ -172,6 +160,6 @@ mod tests {
         let mut journal = Journal::new("/dev/full".into());
         journal.file = Some(journal.open().unwrap());
         let message = journal.append(b"1,2\n").unwrap_err().to_string();
-        assert!(message.contains("the disk is full") && journal.mark() == Mark::default(), "{message}");
+        assert!(message.contains("the disk is full") && journal.mark == Mark::default(), "{message}");
     }
 }

@@ -55,11 +55,11 @@ impl SeriesFile {
 
     /// The extent of the file so far.
     pub(crate) fn mark(&self) -> Mark {
-        self.journal.as_ref().map(Journal::mark).unwrap_or_default()
+        self.journal.as_ref().map(|journal| journal.mark).unwrap_or_default()
     }
 
     fn path(&self) -> &Path {
-        self.journal.as_ref().map_or(Path::new(NAME), Journal::path)
+        self.journal.as_ref().map_or(Path::new(NAME), |journal| &journal.path)
     }
 
     /// Adds a row, `time_s` first. A row at or before the last time replaces the later rows; minus zero becomes zero.

@@ -16,7 +16,8 @@ pub(super) struct Cells {
     period: Vec2,
     /// Cell i holds the entries `start[i]..start[i + 1]` of `order`.
     start: Vec<u32>,
-    order: Vec<u32>,
+    /// The points in the order of their cells.
+    pub(super) order: Vec<u32>,
     sorted: Vec<Vec2>,
 }
 
@@ -75,11 +76,6 @@ impl Cells {
     fn cell_of(&self, x: Vec2) -> u32 {
         let [column, row] = self.column_and_row(x);
         (row * self.counts[0] + column) as u32
-    }
-
-    /// The points in the order of their cells.
-    pub(crate) fn order(&self) -> &[u32] {
-        &self.order
     }
 
     /// Calls `visit(index, x − x_index)` for each point in the cells around `x`, always in the same order.

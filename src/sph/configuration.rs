@@ -4,7 +4,8 @@ use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::method::{Method, PressureGradient};
 use crate::sph::open::Open;
-use crate::sph::wetting::wall::WallField;
+use crate::sph::wetting::wall;
+use crate::wetting::Wetting;
 
 /// Step of the central difference of the wall normal for the curvature of a wall, over dx.
 const CURVATURE_STEP: f64 = 0.25;
@@ -20,8 +21,8 @@ pub struct Configuration {
     pub domain: Domain,
     /// Wall distance and normal.
     pub wall: WallQuery,
-    /// Wetting models and velocities of the walls.
-    pub wall_properties: WallField,
+    /// Wetting models and velocities of the walls; without it all are alike and at rest.
+    pub(crate) wall_properties: Option<wall::WallQuery>,
     /// Open sides, and periodic ones with a given flow rate.
     pub open: Open,
     /// Decay time of the slowest viscous mode in s, infinite with surface tension and without walls.
@@ -50,6 +51,17 @@ impl Configuration {
         let step = CURVATURE_STEP * self.method.spacing;
         let curvature = (normal_at(step) - normal_at(-step)).dot(&along) / (2.0 * step);
         if curvature.abs() * self.method.kernel.h < TIGHTEST { curvature } else { 0.0 }
+    }
+
+    /// The wetting model of the wall nearest to `x` (m); `None` if the flow has none.
+    pub(crate) fn wetting_at(&self, x: Vec2) -> Option<Wetting> {
+        let patch = self.wall_properties.as_ref().and_then(|query| query(x).patch);
+        patch.and_then(|patch| self.method.patches.get(patch).copied()).or(self.method.wetting)
+    }
+
+    /// Velocity in m/s of the wall nearest to `x` (m).
+    pub(crate) fn wall_velocity(&self, x: Vec2) -> Vec2 {
+        self.wall_properties.as_ref().map_or(Vec2::zeros(), |query| query(x).velocity)
     }
 
     /// Whether the pressure of a long step is advanced to the end of the step. Not with surface tension, whose time steps are short enough for

@@ -166,5 +166,5 @@ fn order_walls(state: &mut FlowState, config: &Configuration) {
 
 fn order_of_cells(points: &[Vec2], config: &Configuration) -> Vec<usize> {
     let cells = Cells::build(points, &config.domain, config.method.kernel.support());
-    cells.order().iter().map(|&i| i as usize).collect()
+    cells.order.iter().map(|&i| i as usize).collect()
 }

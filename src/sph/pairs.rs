@@ -34,9 +34,10 @@ pub struct Pair {
 /// weight, while the sums themselves have errors of a percent. W_ab = W_ba and ∇_a W_ab = −∇_b W_ba still hold to the last bit.
 #[derive(Debug, Clone, Default)]
 pub struct Pairs {
-    // The sparsity pattern, shared with the pressure matrix.
-    start: Arc<Vec<usize>>,
-    b: Arc<Vec<u32>>,
+    /// The row starts, one more than rows. The sparsity pattern is shared with the pressure matrix.
+    pub(crate) start: Arc<Vec<usize>>,
+    /// The neighbors, row by row.
+    pub(crate) b: Arc<Vec<u32>>,
     w: Vec<f32>,
     grad_w: Vec<[f32; 2]>,
     slope: Vec<f32>,
@@ -134,20 +135,10 @@ impl Pairs {
         self.b.len()
     }
 
-    /// The range of the row of `a` in [`Pairs::neighbors`].
+    /// The range of the row of `a` in [`Pairs::b`].
     #[inline]
     pub(crate) fn row(&self, a: usize) -> Range<usize> {
         self.start[a]..self.start[a + 1]
-    }
-
-    /// The row starts, one more than rows.
-    pub(crate) fn starts(&self) -> &Arc<Vec<usize>> {
-        &self.start
-    }
-
-    /// The neighbors, row by row.
-    pub(crate) fn neighbors(&self) -> &Arc<Vec<u32>> {
-        &self.b
     }
 
     /// The neighbors of `a`, always in the same order.

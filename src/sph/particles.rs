@@ -23,11 +23,7 @@ pub enum Phase {
 impl Phase {
     /// The number in the output: 0 wetting, 1 non-wetting, 2 solid.
     pub(crate) fn number(self) -> i64 {
-        match self {
-            Self::Wetting => 0,
-            Self::NonWetting => 1,
-            Self::Solid => 2,
-        }
+        self as i64
     }
 
     /// Color c: 1 in the wetting phase, else 0.

@@ -66,7 +66,7 @@ impl States {
             return Ok(());
         }
         let line = Line::of(&record);
-        let text = serde_json::to_string(&line).map_err(|error| content(self.journal.path(), &error.to_string()))?;
+        let text = serde_json::to_string(&line).map_err(|error| content(&self.journal.path, &error.to_string()))?;
         self.journal.append((text + "\n").as_bytes())?;
         self.records.push(record);
         Ok(())

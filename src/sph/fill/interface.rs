@@ -17,21 +17,17 @@ const DOUBTFUL: f64 = 3.0;
 pub(crate) struct Interface<'a> {
     region: &'a Region,
     pore: &'a Geometry,
-    surface: UnfittedSurface<'a>,
+    /// The parts of the outline of the region that are interface.
+    pub(crate) surface: UnfittedSurface<'a>,
 }
 
 impl<'a> Interface<'a> {
     /// The interface around a `region` filled with one phase in a `pore`.
     pub(crate) fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
-        let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
+        let surface = UnfittedSurface::new(&region.surface, 0.0, |a, b| lattice.fits(a, b))
             .restricted(move |closest, normal| is_interface(closest, normal, pore, spacing));
         Self { region, pore, surface }
-    }
-
-    /// The parts of the outline of the region that are interface.
-    pub(crate) fn surface(&self) -> &UnfittedSurface<'a> {
-        &self.surface
     }
 
     /// Makes room in `positions` for layers beside the interface, and returns these: particles half a spacing from it on both sides, evenly spaced along
@@ -44,7 +40,7 @@ impl<'a> Interface<'a> {
         }
         let spacing = lattice.volume().sqrt();
         let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(depth * spacing, lattice, domain));
-        let within = (self.region.area().unwrap_or_else(|| self.area(lattice)) / lattice.volume()).round() as usize;
+        let within = (self.region.area.unwrap_or_else(|| self.area(lattice)) / lattice.volume()).round() as usize;
         let core = within.checked_sub(inner.len());
         let rest = positions.fluid.len().checked_sub(within + outer.len());
         let (Some(core), Some(rest), false) = (core, rest, inner.is_empty() || outer.is_empty()) else {
@@ -113,13 +109,10 @@ fn is_interface(closest: Vec2, normal: Vec2, pore: &Geometry, spacing: f64) -> b
     };
     let Bounds { min, max } = pore.bounds();
     let wall = pore.wall(closest);
-    let sides = [
-        (closest.x - min.x, Vec2::x()),
-        (max.x - closest.x, Vec2::x()),
-        (closest.y - min.y, Vec2::y()),
-        (max.y - closest.y, Vec2::y()),
-    ];
-    !lies_along(wall.distance, wall.normal) && !sides.iter().any(|(distance, normal)| lies_along(*distance, *normal))
+    let lies_along_a_side = [Vec2::x(), Vec2::y()].into_iter().enumerate().any(|(axis, across)| {
+        lies_along(closest[axis] - min[axis], across) || lies_along(max[axis] - closest[axis], across)
+    });
+    !lies_along(wall.distance, wall.normal) && !lies_along_a_side
 }
 
 /// Fraction of a cell of `size` (m) on the positive side of a surface, straight within the cell; `wall` is the surface's distance and normal at

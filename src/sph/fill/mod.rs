@@ -11,7 +11,7 @@ pub(crate) use interface::Interface;
 pub use lattice::{Lattice, on_lattice};
 pub use positions::Positions;
 pub(crate) use region::Region;
-pub(crate) use walls::{Room, along_walls};
+pub(crate) use walls::along_walls;
 
 use crate::sph::domain::Domain;
 

@@ -5,10 +5,12 @@ use crate::math::Vec2;
 
 /// A region within the pore, given by the surface that separates it from the other phase.
 pub(crate) struct Region {
-    surface: Geometry,
+    /// The surface that separates the phases.
+    pub(crate) surface: Geometry,
     /// The region with its walls, where the surface alone does not determine on which side of it a point lies.
     whole: Option<Geometry>,
-    area: Option<f64>,
+    /// Area within the pore in m², `None` if it is not known exactly.
+    pub(super) area: Option<f64>,
 }
 
 impl Region {
@@ -20,16 +22,6 @@ impl Region {
     /// A region bounded by walls and interfaces, `whole`, and its interfaces alone, which may extend slightly into the solid; `area` in m² where it is known.
     pub(crate) fn bounded(whole: Geometry, interfaces: Geometry, area: Option<f64>) -> Self {
         Self { surface: interfaces, whole: Some(whole), area }
-    }
-
-    /// Area within the pore in m², `None` if it is not known exactly.
-    pub(crate) fn area(&self) -> Option<f64> {
-        self.area
-    }
-
-    /// The surface that separates the phases.
-    pub(crate) fn surface(&self) -> &Geometry {
-        &self.surface
     }
 
     /// Whether a point of the pore (m) lies in the region.

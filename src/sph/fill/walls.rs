@@ -10,29 +10,19 @@ use crate::sph::domain::Domain;
 /// Lattice points farther than this from a wall, in spacings, are certainly fluid or certainly not.
 const DOUBTFUL: f64 = 0.5;
 
-/// The domain to fill with particles.
-pub(crate) struct Room<'a> {
-    /// The lattice.
-    pub(crate) lattice: &'a Lattice,
-    /// Box and sides.
-    pub(crate) domain: &'a Domain,
-    /// Support of the kernel in m, the thickness of the walls.
-    pub(crate) support: f64,
-    /// Whether the left, right, bottom and top side is a wall of particles.
-    pub(crate) walls: [bool; 4],
-}
-
 /// Fills the domain with wall particles in layers at depths of half a spacing, one and a half, ... below the unfitted walls, evenly spaced
 /// along each layer, so that each has the volume of the lattice; all else as in [`super::on_lattice`].
 ///
 /// The number of fluid particles follows from `pore_area` (m²). They are still on the lattice, to be packed next.
 pub(crate) fn along_walls(
-    room: &Room,
+    lattice: &Lattice,
+    domain: &Domain,
+    support: f64,
+    walls: [bool; 4],
     unfitted: &UnfittedSurface,
     signed_distance: impl Fn(Vec2) -> f64 + Sync,
     pore_area: f64,
 ) -> Positions {
-    let &Room { lattice, domain, support, walls } = room;
     let spacing = lattice.step.product().sqrt();
     let mut positions = Positions::default();
     let mut doubtful: Vec<(f64, Vec2)> = Vec::new();

@@ -78,8 +78,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     ];
     if method.wetting.is_some() {
         let angle = s.observed.angle();
-        let lines = s.observed.contact_lines.iter();
-        let models = lines.filter_map(|line| s.flow.config.wall_properties.model(method, line.position));
+        let models = s.observed.contact_lines.iter().filter_map(|line| s.flow.config.wetting_at(line.position));
         let angles: Vec<f64> = models.map(|model| model.static_angle().to_degrees()).collect();
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
         found.extend([

@@ -27,9 +27,7 @@ fn index(phase: Phase) -> usize {
 impl BoundaryFluxes {
     /// The counts at time zero.
     pub(crate) fn new(phases: &[Phase], next_id: u32) -> Self {
-        let mut fluxes = Self { next_id, ..Self::default() };
-        fluxes.initial = Self::count(phases);
-        fluxes
+        Self { next_id, initial: Self::count(phases), ..Self::default() }
     }
 
     /// Number of particles of each phase.

@@ -21,12 +21,12 @@ pub fn assemble(
     joined: impl Fn(usize, usize) -> bool + Sync,
 ) -> Matrix {
     let column = if images.is_empty() {
-        Arc::clone(pairs.neighbors())
+        Arc::clone(&pairs.b)
     } else {
-        Arc::new(pairs.neighbors().iter().map(|&b| images.source(b as usize) as u32).collect())
+        Arc::new(pairs.b.iter().map(|&b| images.source(b as usize) as u32).collect())
     };
     let mut coupling = vec![0.0; pairs.len()];
-    let tasks: Vec<_> = split_rows(pairs.starts(), &mut coupling).collect();
+    let tasks: Vec<_> = split_rows(&pairs.start, &mut coupling).collect();
     tasks.into_par_iter().for_each(|(range, coupling)| {
         let all = range.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
         for (out, (a, ab)) in coupling.iter_mut().zip(all) {
@@ -41,7 +41,7 @@ pub fn assemble(
         // A particle without neighbors has no equation: its pressure remains zero.
         if sum > 0.0 { sum } else { 1.0 }
     });
-    Matrix { start: Arc::clone(pairs.starts()), column, coupling, diagonal }
+    Matrix { start: Arc::clone(&pairs.start), column, coupling, diagonal }
 }
 
 /// Numbers the connected components of the pore space, with neighbors connected if `joined`; each has its own pressure constant.

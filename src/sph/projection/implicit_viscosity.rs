@@ -87,7 +87,7 @@ impl View<'_, Fields> {
             let along = self.stretch_matrix(a, ab.b, f64::sqrt) * ab.grad_w;
             for_image * strength * along * along.transpose()
         };
-        let starts = &pairs.starts()[..=fluids];
+        let starts = &pairs.start[..=fluids];
         let (mut coupling, mut diagonal) = (vec![0.0_f32; starts[fluids]], vec![Mat2::zeros(); fluids]);
         let parts: Vec<_> = split_rows(starts, &mut coupling).zip(diagonal.chunks_mut(GRAIN)).collect();
         parts.into_par_iter().for_each(|((rows, coupling), diagonal)| {
@@ -187,7 +187,7 @@ impl<'a> Preconditioner<'a> {
     fn new(viscous: &'a ViscousMatrix, weight: f64) -> Self {
         let (pairs, root_mass) = (viscous.pairs, &viscous.root_mass);
         let fluids = root_mass.len();
-        let start = pairs.starts()[..=fluids].to_vec();
+        let start = pairs.start[..=fluids].to_vec();
         let mut column = vec![0; start[fluids]];
         let mut coupling = vec![0.0; start[fluids]];
         let parts: Vec<_> = split_rows(&start, &mut column).zip(split_rows(&start, &mut coupling)).collect();
@@ -195,7 +195,7 @@ impl<'a> Preconditioner<'a> {
             let mut entries = columns.iter_mut().zip(couplings);
             for a in rows {
                 for (k, (column, coupling)) in pairs.row(a).zip(&mut entries) {
-                    let b = pairs.neighbors()[k] as usize;
+                    let b = pairs.b[k] as usize;
                     // A zero entry on the diagonal stands for a neighbor that is not fluid.
                     let (b, value) = if b < fluids { (b, viscous.coupling[k]) } else { (a, 0.0) };
                     *column = b as u32;
@@ -238,7 +238,7 @@ impl System<'_> {
             let pairs = v.pairs.of(a).zip(coupling);
             pairs.map(|(ab, coupling)| f64::from(*coupling) * x[ab.b].dot(&ab.grad_w) * ab.grad_w).sum()
         } else {
-            weighted_sum(&v.pairs.neighbors()[row], coupling, x)
+            weighted_sum(&v.pairs.b[row], coupling, x)
         };
         self.diagonal[a] * x[a] - self.weight * coupled
     }

@@ -14,7 +14,6 @@ use crate::sph::flow::Flow;
 use crate::sph::frozen::{FlowAtRest, FrozenInterface};
 use crate::sph::open::Open;
 use crate::sph::particles::{Particles, Phase};
-use crate::sph::wetting::wall::WallField;
 
 /// Distance from a wall at which the phase on it is evaluated, over the spacing.
 const BESIDE: f64 = 0.1;
@@ -67,7 +66,7 @@ fn at_rest(pore: &Pore, phase: Option<Phase>, start: (Particles, Vec<f64>)) -> F
             method,
             domain,
             wall: Box::new(move |x| wall.wall(phase, x)),
-            wall_properties: WallField::default(),
+            wall_properties: None,
             open: Open::default(),
             viscous_time,
             since: 0.0,
@@ -116,7 +115,7 @@ impl Pore {
 
     /// Distance from the interface in m, and the direction away from it.
     fn interface(&self, x: Vec2) -> (f64, Vec2) {
-        let surface = self.region.surface().wall(x);
+        let surface = self.region.surface.wall(x);
         (surface.distance.abs(), surface.distance.signum() * surface.normal)
     }
 }

@@ -107,7 +107,7 @@ pub(crate) fn solver(
     }
     let viscous_time = viscous_time(&method, &lattice, &domain, |x| geometry.signed_distance(x));
     let surroundings = surroundings(case, sph, &geometry, &method);
-    let wall_properties = wall_properties(sph, &geometry).unwrap_or_default();
+    let wall_properties = wall_properties(sph, &geometry);
     let wall: WallQuery = Box::new(move |x| {
         let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)

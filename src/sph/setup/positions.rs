@@ -7,7 +7,7 @@ use crate::case::{Side, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
-use crate::sph::fill::{self, Interface, Region, Room};
+use crate::sph::fill::{self, Interface, Region};
 use crate::sph::packing::Packing;
 use crate::sph::particles::Particles;
 
@@ -30,7 +30,7 @@ pub(super) fn filled(
     let follows_walls = sph.numerics.fitted_walls && !unfitted.is_empty();
     let mut positions = if follows_walls {
         let pore_area = geometry.porosity().value * geometry.bounds().area();
-        fill::along_walls(&Room { lattice, domain, support, walls }, &unfitted, signed_distance, pore_area)
+        fill::along_walls(lattice, domain, support, walls, &unfitted, signed_distance, pore_area)
     } else {
         fill::on_lattice(lattice, support, walls, signed_distance)
     };
@@ -49,7 +49,7 @@ pub(super) fn filled(
             spacing: method.spacing,
             volume: method.volume,
             pore: geometry,
-            interface: interface.as_ref().filter(|_| !layers.is_empty()).map(Interface::surface),
+            interface: interface.as_ref().filter(|_| !layers.is_empty()).map(|interface| &interface.surface),
             sides: &closed.collect::<Vec<_>>(),
         };
         packing.pack(&mut positions.fluid, packed);

@@ -6,7 +6,7 @@ use crate::case::{PatchedWall, Side, Sph, WettingPatch};
 use crate::geometry::Geometry;
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::{ImageVelocity, Mirror};
-use crate::sph::wetting::wall::{WallField, WallProperties};
+use crate::sph::wetting::wall::{WallProperties, WallQuery};
 
 /// Axis of each side (left, right, bottom, top) and its coordinate along it in m.
 pub(super) fn coordinates_of_sides(Bounds { min, max }: Bounds) -> [(usize, f64); 4] {
@@ -23,12 +23,12 @@ pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
 }
 
 /// Patches and velocities of the walls; `None` if all walls are alike and at rest.
-pub(super) fn wall_properties(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallField> {
+pub(super) fn wall_properties(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallQuery> {
     if sph.wetting_patches.is_empty() && sph.wall_speeds == [0.0; 4] {
         return None;
     }
     let (patches, speeds, geometry) = (sph.wetting_patches.clone(), sph.wall_speeds, Arc::clone(geometry));
-    Some(WallField::new(Box::new(move |x| {
+    Some(Box::new(move |x| {
         let wall = geometry.wall(x);
         // Walls at the sides are numbered after the shapes.
         let side = wall.shape.checked_sub(geometry.shape_count()).filter(|side| *side < 4);
@@ -48,7 +48,7 @@ pub(super) fn wall_properties(sph: &Sph, geometry: &Arc<Geometry>) -> Option<Wal
             on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(closest))
         };
         WallProperties { patch: patches.iter().rposition(lies_there), velocity }
-    })))
+    }))
 }
 
 /// Velocity of a wall particle in m/s: that of the side behind which it lies, zero behind a corner.

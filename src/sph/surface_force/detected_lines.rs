@@ -40,15 +40,15 @@ pub(crate) struct InterfaceLine<'a> {
 impl View<'_, BulkFields> {
     /// The present contact lines, from those of the previous step and the `detected_lines`.
     pub(super) fn followed(&self, detected_lines: &[impl DetectedLine]) -> Vec<TrackedLine> {
-        let Configuration { method, domain, wall_properties, .. } = self.config;
+        let Configuration { method, domain, .. } = self.config;
         let Some(base) = method.wetting else { return Vec::new() };
         let h = method.kernel.h;
         // The response time of an interface of size h.
         let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
         let tracker = ContactLineTracker {
             domain,
-            model: &|x| wall_properties.model(method, x).unwrap_or(base),
-            wall_velocity: &|x| wall_properties.velocity(x),
+            model: &|x| self.config.wetting_at(x).unwrap_or(base),
+            wall_velocity: &|x| self.config.wall_velocity(x),
             tension: method.tension,
             viscosity: method.wetting_fluid.viscosity,
             other_viscosity: method.other_fluid.viscosity,

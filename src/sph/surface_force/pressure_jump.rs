@@ -52,7 +52,7 @@ impl View<'_, BulkFields> {
         }
         let angle_at = |x: Vec2, outward: Vec2| {
             // Not used without a wetting model.
-            let Some(model) = self.config.wall_properties.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
+            let Some(model) = self.config.wetting_at(x) else { return std::f64::consts::FRAC_PI_2 };
             let line = if model.is_static() { None } else { nearest(&lines, domain, x, outward, LINE_REACH * h) };
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
@@ -65,7 +65,7 @@ impl View<'_, BulkFields> {
         let curvature = jump.curvature[..particles.len()].iter().map(|&k| if k.is_nan() { 0.0 } else { k }).collect();
         let range = |a: usize| {
             let has_wall = bulk.wall_distance[a].is_finite();
-            let model = if has_wall { self.config.wall_properties.model(method, particles.position[a]) } else { None };
+            let model = if has_wall { self.config.wetting_at(particles.position[a]) } else { None };
             model.map_or([f64::NAN; 2], |model| model.hysteresis_range())
         };
         let (wall_hysteresis, has_pinned_line) = ((0..fluids).map(range).collect(), !pinned.is_empty());

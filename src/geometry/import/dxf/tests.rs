@@ -3,7 +3,6 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::import::drawing::Outline;
 use crate::geometry::import::drawing::seen::{area, counts, discs, only};
 use crate::math::Vec2;
 
