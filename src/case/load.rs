@@ -49,30 +49,12 @@ const NUMERICS: [&str; 2] = ["sph", "numerics"];
 const DEFAULT_CASE: &str = "cases/four-discs.toml";
 const DEFAULT_CASE_TEXT: &str = include_str!("../../cases/four-discs.toml");
 
-/// The text of a case file.
-fn text_of(path: &Path) -> Result<String, InputError> {
-    match drawing_in_place_of_a_case(path) {
-        Some(mistake) => Err(mistake.into()),
-        None => read(path, "check the path of the case file"),
-    }
-}
-
 /// Loads and checks a case file and the shape file it names.
 ///
 /// # Errors
 /// All mistakes of both files, or the file that cannot be read with its resolved path.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
-    let text = text_of(path)?;
-    load_text(&path.display().to_string(), &text, overrides, &Origin::Disk(path))
-}
-
-/// Loads and checks a case as if the file of its initial state contained `state`.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_started(path: &Path, overrides: &Overrides, state: &str) -> Result<Loaded, InputError> {
-    let text = text_of(path)?;
-    load_text(&path.display().to_string(), &text, overrides, &Origin::Started(path, state))
+    load_from(&Origin::Disk(path), overrides, None)
 }
 
 /// Loads the built-in case: the wetting liquid between four discs.
@@ -80,46 +62,30 @@ pub fn load_started(path: &Path, overrides: &Overrides, state: &str) -> Result<L
 /// # Errors
 /// Overrides that do not fit.
 pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
-    load_text(DEFAULT_CASE, DEFAULT_CASE_TEXT, overrides, &Origin::BuiltIn)
+    load_from(&Origin::BuiltIn, overrides, None)
 }
 
-/// Loads and checks the text of a case without a file; `name` is its name in messages.
+/// Loads and checks a case; if its geometry is the one in `kept`, it is not read again, and the resolved text has no shapes.
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_given(name: &str, text: &str, overrides: &Overrides) -> Result<Loaded, InputError> {
-    load_text(name, text, overrides, &Origin::Given)
-}
-
-/// Loads the text of a starter case, which refers to no files.
-///
-/// # Errors
-/// All its mistakes.
-pub(super) fn load_starter(text: &str) -> Result<Loaded, InputError> {
-    load_text("the starter case", text, &Overrides::default(), &Origin::BuiltIn)
-}
-
-/// Loads and checks a case file; if its geometry is the one in `kept`, it is not read again. The resolved text has no shapes.
-///
-/// # Errors
-/// As [`load`].
-pub(crate) fn load_with(path: &Path, overrides: &Overrides, kept: &KeptGeometry) -> Result<Loaded, InputError> {
-    let text = text_of(path)?;
-    check_text(&path.display().to_string(), &text, overrides, (&Origin::Disk(path), Some(kept)))
-}
-
-fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
-    check_text(name, text, overrides, (origin, None))
-}
-
-fn check_text(
-    name: &str,
-    text: &str,
+pub(crate) fn load_from(
+    origin: &Origin,
     overrides: &Overrides,
-    (origin, kept): (&Origin, Option<&KeptGeometry>),
+    kept: Option<&KeptGeometry>,
 ) -> Result<Loaded, InputError> {
-    let document = Document::parse(name, text, overrides)?.with_renamed(&RENAMED);
-    document.refuse(other_than_a_case(text).into_iter().collect())?;
+    let (name, text) = match *origin {
+        Origin::Disk(path) | Origin::Started(path, _) => {
+            if let Some(mistake) = drawing_in_place_of_a_case(path) {
+                return Err(mistake.into());
+            }
+            (path.display().to_string(), read(path, "check the path of the case file")?)
+        }
+        Origin::BuiltIn => (DEFAULT_CASE.to_owned(), DEFAULT_CASE_TEXT.to_owned()),
+        Origin::Given(name, text) => (name.to_owned(), text.to_owned()),
+    };
+    let document = Document::parse(&name, &text, overrides)?.with_renamed(&RENAMED);
+    document.refuse(other_than_a_case(&text).into_iter().collect())?;
     let mut reading = document.read::<RawCase>();
     let mut checker = Checker::default();
     let written = one_model(&mut checker, std::mem::take(&mut reading.value));

@@ -13,13 +13,15 @@ const DEFAULT_SHAPES: &str = "../geometries/four-discs.toml";
 const DEFAULT_SHAPES_TEXT: &str = include_str!("../../geometries/four-discs.toml");
 
 /// Source of a case and of its files.
-pub(super) enum Origin<'p> {
+pub(crate) enum Origin<'p> {
+    /// A case file.
     Disk(&'p Path),
     /// The same, with the text of the initial state of the case, whatever file it names.
     Started(&'p Path, &'p str),
+    /// The built-in case.
     BuiltIn,
-    /// A text without a file; relative paths refer to the working folder.
-    Given,
+    /// The name and the text of a case without a file; relative paths refer to the working folder.
+    Given(&'p str, &'p str),
 }
 
 impl<'p> Origin<'p> {
@@ -27,7 +29,7 @@ impl<'p> Origin<'p> {
     pub(super) fn path(&self) -> Option<&'p Path> {
         match *self {
             Self::Disk(path) | Self::Started(path, _) => Some(path),
-            Self::BuiltIn | Self::Given => None,
+            Self::BuiltIn | Self::Given(..) => None,
         }
     }
 }

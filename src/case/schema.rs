@@ -3,8 +3,9 @@
 use serde_json::{Map, Value, json};
 
 use super::case_file::RawCase;
-use super::load::load_starter;
-use crate::input::InputError;
+use super::load::load_from;
+use super::read_geometry::Origin;
+use crate::input::{InputError, Overrides};
 use crate::wetting::laws;
 
 /// Tables with exactly one of several tables or keys, each an alternative: the type, and the keys that are not alternatives.
@@ -95,5 +96,5 @@ pub(crate) fn starter_of_chip(depth: f64) -> Result<String, InputError> {
     const NEXT: &str = "\n[sph]";
     let key = format!("depth = {depth:?} # m, from the floor to the lid\n{NEXT}");
     let text = starter_case().replacen(NEXT, &key, 1);
-    load_starter(&text).map(|_| text)
+    load_from(&Origin::Given("the starter case", &text), &Overrides::default(), None).map(|_| text)
 }

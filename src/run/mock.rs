@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::simulation::{Progress, Watcher};
-use crate::case::{Case, Expectation, load_given};
+use crate::case::{Case, Expectation, Origin, load_from};
 use crate::input::Overrides;
 use crate::math::{Vec2, perpendicular};
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
@@ -154,8 +154,9 @@ pub(crate) fn case() -> Case {
     let text = "format = 1\ntitle = \"Particles on circles\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\n\
                 [sph]\nspacing = 0.05\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1e-3\n[time]\nend = 1.0\n\
                 [output]\nseries.every-time = 0.1\nvtk.every-time = 0.2\nrestart.every-time = 0.4\n";
-    let case =
-        load_given("mock", text, &Overrides::default()).unwrap_or_else(|error| panic!("{}", error.render())).case;
+    let case = load_from(&Origin::Given("mock", text), &Overrides::default(), None)
+        .unwrap_or_else(|error| panic!("{}", error.render()))
+        .case;
     let expect = Expectation { measure: "radius-m".into(), value: 1.0 / 3.0, tolerance: 1.0e-9 };
     Case { expect: vec![expect], ..case }
 }

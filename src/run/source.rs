@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::setup::{self, SetupError};
-use crate::case::{self, Case, Loaded, Model, NetworkOptions};
+use crate::case::{self, Case, Loaded, Model, NetworkOptions, Origin};
 use crate::geometry::import::{self, Beyond, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Document, InputError, Overrides, Problem, file};
@@ -68,13 +68,8 @@ impl Source {
 /// # Errors
 /// All mistakes with their locations.
 pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, InputError> {
-    let overrides = Overrides::parse(overrides)?;
-    let loaded = match path {
-        Some(path) => case::load(path, &overrides)?,
-        None => case::load_default(&overrides)?,
-    };
     let name = path.and_then(Path::file_stem).map_or_else(|| DEFAULT_NAME.into(), |stem| stem.to_string_lossy().into());
-    sound(loaded, name)
+    sound(&path.map_or(Origin::BuiltIn, Origin::Disk), overrides, name)
 }
 
 /// The same with the text of a case, called `name`. Relative paths in it refer to the working folder.
@@ -82,7 +77,7 @@ pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, In
 /// # Errors
 /// All mistakes with their locations.
 pub fn load_case_text(name: &str, text: &str, overrides: &[String]) -> Result<Source, InputError> {
-    sound(case::load_given(name, text, &Overrides::parse(overrides)?)?, name.to_owned())
+    sound(&Origin::Given(name, text), overrides, name.to_owned())
 }
 
 /// Loads a case file as if the file of its initial state contained `state`.
@@ -90,12 +85,12 @@ pub fn load_case_text(name: &str, text: &str, overrides: &[String]) -> Result<So
 /// # Errors
 /// All mistakes with their locations.
 pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, InputError> {
-    let loaded = case::load_started(path, &Overrides::parse(overrides)?, state)?;
-    sound(loaded, path.file_stem().unwrap_or_default().to_string_lossy().into())
+    sound(&Origin::Started(path, state), overrides, path.file_stem().unwrap_or_default().to_string_lossy().into())
 }
 
 /// The case, if it is valid for its geometry.
-fn sound(loaded: Loaded, name: String) -> Result<Source, InputError> {
+fn sound(origin: &Origin, overrides: &[String], name: String) -> Result<Source, InputError> {
+    let loaded = case::load_from(origin, &Overrides::parse(overrides)?, None)?;
     loaded.refuse(setup::problems(&loaded.case))?;
     let Loaded { case, resolved, notes, document, .. } = loaded;
     Ok(Source { case, resolved, name, notes, document: Some(document) })

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::definition::Assignment;
-use crate::case::{self, KeptGeometry, Loaded};
+use crate::case::{self, KeptGeometry, Loaded, Origin};
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
 
@@ -17,24 +17,14 @@ pub(super) fn overrides(assignments: &[Assignment]) -> Vec<String> {
     texts
 }
 
-/// Loads a case with these values and checks it against its geometry.
+/// Loads a case with these values and checks it against its geometry; with `kept`, which has the geometry of the previous case, the resolved text has no
+/// shapes.
 ///
 /// # Errors
 /// All mistakes.
-pub(super) fn load(case: &Path, assignments: &[Assignment]) -> Result<Loaded, InputError> {
+pub(super) fn load(case: &Path, assignments: &[Assignment], kept: Option<&KeptGeometry>) -> Result<Loaded, InputError> {
     let overrides = Overrides::parse(&overrides(assignments))?;
-    let loaded = case::load(case, &overrides)?;
-    loaded.refuse(setup::problems(&loaded.case))?;
-    Ok(loaded)
-}
-
-/// Loads a case of a network with these values, its resolved text without shapes; `kept` has the geometry of the previous case.
-///
-/// # Errors
-/// All mistakes.
-pub(super) fn load_with(case: &Path, assignments: &[Assignment], kept: &KeptGeometry) -> Result<Loaded, InputError> {
-    let overrides = Overrides::parse(&overrides(assignments))?;
-    let loaded = case::load_with(case, &overrides, kept)?;
+    let loaded = case::load_from(&Origin::Disk(case), &overrides, kept)?;
     loaded.refuse(setup::problems(&loaded.case))?;
     Ok(loaded)
 }

@@ -67,7 +67,7 @@ pub(super) fn plan(
     assignments: &[Assignment],
     network: &NetworkRun,
 ) -> Result<(Loaded, PlannedNetwork), InputError> {
-    let (mut direct, other) = both(load(case, assignments), load(&network.case, &network.assignments))?;
+    let (mut direct, other) = both(load(case, assignments, None), load(&network.case, &network.assignments, None))?;
     let records = network.records;
     let of_direct = direct.resolved;
     direct.resolved = format!("# direct simulation, {records} records\n{of_direct}\n# network\n{}", other.resolved);

@@ -120,7 +120,7 @@ impl Run {
     /// # Errors
     /// As [`plan`](Self::plan).
     pub(crate) fn case(&self, study: &Study, kept: &KeptGeometry) -> Result<Loaded, InputError> {
-        base_case::load_with(&self.case, &self.assignments, kept).map_err(|error| self.placed(study, error))
+        base_case::load(&self.case, &self.assignments, Some(kept)).map_err(|error| self.placed(study, error))
     }
 
     fn load(&self, study: &Study) -> Result<PlannedRun, InputError> {
@@ -130,7 +130,7 @@ impl Run {
                     comparison::plan(study, &self.case, &self.case_origin, &self.assignments, network)?;
                 (direct, Some(network))
             }
-            None => (base_case::load(&self.case, &self.assignments)?, None),
+            None => (base_case::load(&self.case, &self.assignments, None)?, None),
         };
         let Loaded { case, resolved, document, .. } = loaded;
         Ok(PlannedRun { run: self.clone(), case, resolved, document, network })
