@@ -115,7 +115,7 @@ pub(crate) fn load_from(
     });
     let folder = origin.path().and_then(Path::parent).unwrap_or(Path::new(""));
     let given = if let Origin::Started(_, state) = origin { Some(*state) } else { None };
-    let start = start::start(&mut checker, &raw, (folder, given), geometry.as_ref(), &mut sources);
+    let start = start::start(&mut checker, &raw, folder, given, geometry.as_ref(), &mut sources);
     if let Some(network) = &mut raw.network {
         network::measured::read(&mut checker, network, folder);
     }
@@ -129,8 +129,8 @@ pub(crate) fn load_from(
     let end = records::end(&mut checker, &raw, model.as_ref());
     let output = records::output(&mut checker, &mut raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
     let steady = records::steady(&mut checker, &mut raw, end, &output);
-    permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
-    relative_permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
+    permeability::records(&mut checker, model.as_ref(), end, steady.is_some(), &output);
+    relative_permeability::records(&mut checker, model.as_ref(), end, steady.is_some(), &output);
     let expect = records::expectations(&mut checker, &mut raw, model.as_ref(), geometry.as_ref());
     magnitudes(&mut checker, "sph", raw.sph.as_ref());
     magnitudes(&mut checker, "thin-film", raw.thin_film.as_ref());

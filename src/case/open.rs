@@ -93,7 +93,7 @@ pub(super) fn open(
     let mut tables = [&mut all.left, &mut all.right, &mut all.bottom, &mut all.top];
     let mut open = [None; 4];
     for (i, table) in tables.iter_mut().enumerate() {
-        open[i] = side(checker, (SIDES[i], kinds[i]), table);
+        open[i] = side(checker, SIDES[i], kinds[i], table);
         if let Some(table) = table {
             phase(checker, SIDES[i], table, two_phases);
         }
@@ -123,7 +123,7 @@ fn is_open(kind: Side) -> bool {
 }
 
 /// The drive of a side; its table then has all keys.
-fn side(checker: &mut Checker, (name, kind): (&str, Side), table: &mut Option<RawOpenSide>) -> Option<Open> {
+fn side(checker: &mut Checker, name: &str, kind: Side, table: &mut Option<RawOpenSide>) -> Option<Open> {
     let raw = table.as_ref();
     let path = at(name);
     let is_given = |key: &str, value: Option<f64>| checker.is_given(&format!("{path}.{key}"), value.as_ref());

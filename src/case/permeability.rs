@@ -99,7 +99,8 @@ fn force(checker: &mut Checker, sph: &Sph) {
 pub(super) fn records(
     checker: &mut Checker,
     model: Option<&Model>,
-    (end, is_steady): (Option<f64>, bool),
+    end: Option<f64>,
+    is_steady: bool,
     output: &Output,
 ) {
     let (Some(sph), Some(end)) = (measured(model), end) else { return };

@@ -25,7 +25,8 @@ fn named(raw: &RawCase) -> Option<(&'static str, &Path)> {
 pub(super) fn start(
     checker: &mut Checker,
     raw: &RawCase,
-    (folder, given): (&Path, Option<&str>),
+    folder: &Path,
+    given: Option<&str>,
     geometry: Option<&GeometrySpec>,
     sources: &mut Vec<PathBuf>,
 ) -> Option<Start> {

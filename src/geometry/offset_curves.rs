@@ -142,7 +142,7 @@ impl<'a> UnfittedSurface<'a> {
         let mut offset_curves = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
             let samples = self.samples(&chain, is_closed, depth, step);
-            offset_curves.extend(self.cut(&samples, is_closed, (depth, step), &within));
+            offset_curves.extend(self.cut(&samples, is_closed, depth, step, &within));
         }
         offset_curves
     }
@@ -197,7 +197,8 @@ impl<'a> UnfittedSurface<'a> {
         &self,
         samples: &[Option<Vec2>],
         is_closed: bool,
-        (depth, step): (f64, f64),
+        depth: f64,
+        step: f64,
         within: impl Fn(Vec2) -> bool + Sync,
     ) -> Vec<Polyline> {
         let has_depth = |x: Vec2| {

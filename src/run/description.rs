@@ -33,7 +33,11 @@ pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
             1 => ", and one patch of its own".to_owned(),
             count => format!(", and {count} patches of their own"),
         };
-        format!("{} mN/m{}{patches}", rounded(1e3 * tension), law.map_or(String::new(), angle))
+        format!(
+            "{} mN/m{}{patches}",
+            rounded(1e3 * tension),
+            law.map_or(String::new(), |(range, name)| angle(range, &name))
+        )
     });
     [("phases", phases), ("interface", interface), ("sides", Some(in_order(sides)))]
         .into_iter()
@@ -88,7 +92,7 @@ fn in_words(fluid: Fluid) -> String {
 }
 
 /// The range of angles at rest in rad, with the key of their law.
-fn angle((range, name): ([f64; 2], String)) -> String {
+fn angle(range: [f64; 2], name: &str) -> String {
     let [receding, advancing] = range.map(f64::to_degrees);
     if receding == advancing {
         return format!(", {} degrees through the wetting phase ({name})", rounded(receding));

@@ -33,14 +33,15 @@ pub(crate) trait SmoothCurve {
 pub(crate) fn append(curve: &impl SmoothCurve, from: f64, to: f64, size: f64, vertices: &mut Vec<[f64; 3]>) {
     let (a, b) = (curve.point(from), curve.point(to));
     let tolerance = (TOLERANCE * size).max(ROUNDING * (a.amax() + b.amax()));
-    halve(curve, [from, to], [a, b], (tolerance, DEEPEST), vertices);
+    halve(curve, [from, to], [a, b], tolerance, DEEPEST, vertices);
 }
 
 fn halve(
     curve: &impl SmoothCurve,
     [from, to]: [f64; 2],
     [a, b]: [Vec2; 2],
-    (tolerance, depth): (f64, u32),
+    tolerance: f64,
+    depth: u32,
     vertices: &mut Vec<[f64; 3]>,
 ) {
     let pair = Biarc::new([a, b], [curve.tangent(from, 1.0), curve.tangent(to, -1.0)]);
@@ -57,8 +58,8 @@ fn halve(
     } else {
         let middle = 0.5 * (from + to);
         let joint = curve.point(middle);
-        halve(curve, [from, middle], [a, joint], (tolerance, depth - 1), vertices);
-        halve(curve, [middle, to], [joint, b], (tolerance, depth - 1), vertices);
+        halve(curve, [from, middle], [a, joint], tolerance, depth - 1, vertices);
+        halve(curve, [middle, to], [joint, b], tolerance, depth - 1, vertices);
     }
 }
 

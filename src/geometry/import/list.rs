@@ -20,7 +20,7 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
     for (line, row) in (1..).zip(text.lines()) {
         if lines.take_comment(line, row.trim()) {
             if let Some(found) = Header::of_comment(row.trim(), options).filter(|_| may_be_header) {
-                header = taken(found, (line, row), options, &mut lines);
+                header = taken(found, line, row, options, &mut lines);
             }
             continue;
         }
@@ -33,7 +33,7 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
             may_be_header && names.iter().all(|name| name.parse::<f64>().is_err()) && !has_number(data, options);
         may_be_header = false;
         if is_header {
-            header = taken(Header::of(&names, options), (line, row), options, &mut lines);
+            header = taken(Header::of(&names, options), line, row, options, &mut lines);
             continue;
         }
         let numbers = words(data).filter(|word| word.parse::<f64>().is_ok()).count();
@@ -72,7 +72,8 @@ fn has_number(data: &str, options: &Options) -> bool {
 /// A sufficient header; else `None`, with the line refused.
 fn taken(
     header: Result<Header, String>,
-    (line, row): (usize, &str),
+    line: usize,
+    row: &str,
     options: &Options,
     lines: &mut Lines,
 ) -> Option<Header> {

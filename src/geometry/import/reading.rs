@@ -38,7 +38,7 @@ fn decided(
     refusals: Vec<Refusal>,
 ) -> Result<Imported, Refused> {
     let ask = |what: &str, key: &str, choices: [Choice<'_>; 2], (all, notes): (&[Entity], &Notes)| {
-        Err(Refused::Keys(vec![question(what, key, choices, (all, sheet, notes))]))
+        Err(Refused::Keys(vec![question(what, key, choices, all, sheet, notes)]))
     };
     let overlaid = outlines.iter().filter(|one| one.paint == Paint::Overlaid).count();
     if overlaid > 0 || (sheet.nesting == Nesting::OfAll && is_of_gds(&sheet.layers) && has_nested(&outlines)) {
@@ -90,12 +90,7 @@ fn has_nested(outlines: &[Entity]) -> bool {
 type Choice<'a> = (&'a str, Options, &'a str);
 
 /// The question which of two readings is meant, with both.
-fn question(
-    what: &str,
-    key: &str,
-    choices: [Choice<'_>; 2],
-    (all, sheet, notes): (&[Entity], &Sheet, &Notes),
-) -> Problem {
+fn question(what: &str, key: &str, choices: [Choice<'_>; 2], all: &[Entity], sheet: &Sheet, notes: &Notes) -> Problem {
     let mut message = format!("the drawing can be read in two ways: {what}");
     let values = [choices[0].0, choices[1].0];
     for (value, options, text) in choices {

@@ -87,12 +87,12 @@ impl Chunk {
 
     fn end(self, drawing: &mut Drawing, lines: &mut Lines) {
         if !self.text.trim().is_empty() && !self.has_bad_number {
-            take(&self.text, (self.line, self.deepest), drawing, lines);
+            take(&self.text, self.line, self.deepest, drawing, lines);
         }
     }
 }
 
-fn take(chunk: &str, (line, depth): (usize, i64), drawing: &mut Drawing, lines: &mut Lines) {
+fn take(chunk: &str, line: usize, depth: i64, drawing: &mut Drawing, lines: &mut Lines) {
     if depth > DEEPEST {
         lines.refuse(line, chunk.trim(), format!("parentheses at most {DEEPEST} deep, not {depth}"));
         return;

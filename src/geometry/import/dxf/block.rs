@@ -140,24 +140,24 @@ impl Reader<'_> {
                     (None, Layer { is_frozen: true, .. } | Layer { is_off: true, .. }) => {
                         self.drawing.count("entities on layers that are off or frozen", 1)
                     }
-                    _ => self.outlines(content, record, (map, layer)),
+                    _ => self.outlines(content, record, map, layer),
                 }
             }
         }
     }
 
-    fn outlines(&mut self, content: Content, record: &Record, location: (&Affine, &str)) {
+    fn outlines(&mut self, content: Content, record: &Record, map: &Affine, layer: &str) {
         match content {
-            Content::Contour { pieces, is_closed } => self.contour(pieces, is_closed, record, location),
+            Content::Contour { pieces, is_closed } => self.contour(pieces, is_closed, record, map, layer),
             Content::Wide(outlines) => {
                 self.wide += 1;
-                outlines.into_iter().for_each(|pieces| self.contour(pieces, true, record, location));
+                outlines.into_iter().for_each(|pieces| self.contour(pieces, true, record, map, layer));
             }
             Content::Insert(_) | Content::Unused(_) => {}
         }
     }
 
-    fn contour(&mut self, pieces: Vec<Piece>, is_closed: bool, record: &Record, (map, layer): (&Affine, &str)) {
+    fn contour(&mut self, pieces: Vec<Piece>, is_closed: bool, record: &Record, map: &Affine, layer: &str) {
         let pieces: Vec<Piece> = pieces.iter().map(|piece| piece.mapped(map)).collect();
         if !self.spend(pieces.len(), || record.location()) {
             return;
@@ -168,7 +168,7 @@ impl Reader<'_> {
         }
         if is_closed {
             let size = extent(&pieces);
-            self.closed(&pieces, CLOSING_GAP * size, (record.location(), layer));
+            self.closed(&pieces, CLOSING_GAP * size, record.location(), layer);
         } else {
             let open = self.open.entry(layer.to_owned()).or_default();
             let location = record.location();
@@ -176,7 +176,7 @@ impl Reader<'_> {
         }
     }
 
-    fn closed(&mut self, pieces: &[Piece], gap: f64, (location, layer): (String, &str)) {
+    fn closed(&mut self, pieces: &[Piece], gap: f64, location: String, layer: &str) {
         let outline = match close(pieces, gap) {
             Closed::Circle { center, radius, .. } => Outline::Disc { center, radius },
             Closed::Ring(ring) => {
@@ -240,7 +240,7 @@ impl Reader<'_> {
             let chains = chains(&pieces, gap);
             self.report_gaps(&chains.free, &open, size);
             for (first, ring) in chains.rings {
-                self.closed(&ring, gap, (open[first].1.clone(), &layer));
+                self.closed(&ring, gap, open[first].1.clone(), &layer);
             }
             let unused = [("open lines", chains.open), ("lines drawn twice", chains.doubled)];
             unused

@@ -52,12 +52,7 @@ fn longest(end: usize, fits: impl Fn(usize) -> bool) -> usize {
 
 /// Few arcs through the points, as near to all of them as the `noise` (rms, in pixels) requires; each of the `parts` between the given indices is
 /// divided from both of its ends, so that the arcs do not depend on the sense. Closed: the last arc ends at the first vertex. Open: the last vertex ends the line and has no arc.
-pub(super) fn arcs(
-    (points, tangents): (&[Vec2], &[Vec2]),
-    parts: &[usize],
-    is_closed: bool,
-    noise: f64,
-) -> Vec<Vertex> {
+pub(super) fn arcs(points: &[Vec2], tangents: &[Vec2], parts: &[usize], is_closed: bool, noise: f64) -> Vec<Vertex> {
     let n = points.len();
     let at = |k: usize| (points[k % n], tangents[k % n]);
     let fits = |i: usize, j: usize| {
@@ -145,7 +140,7 @@ mod tests {
         let points: Vec<Vec2> = (0..count).map(|k| unit(at(k)).component_mul(&Vec2::new(a, b))).collect();
         let tangents: Vec<Vec2> =
             (0..count).map(|k| perpendicular(unit(at(k))).component_mul(&Vec2::new(a, b)).normalize()).collect();
-        let vertices = arcs((&points, &tangents), &[0, count], true, noise);
+        let vertices = arcs(&points, &tangents, &[0, count], true, noise);
         assert!(vertices.len() < 40, "{} arcs", vertices.len());
         // The arcs may lie anywhere within the tolerance along the whole ellipse; in practice they alternate about it.
         assert!((area(&vertices, true) - 0.5 * TAU * a * b).abs() < TOLERANCE * noise * movable_length(&vertices));

@@ -169,7 +169,7 @@ fn smooth(even: Samples, noise: Noise, lack: impl Fn(&[Vec2]) -> f64) -> Smooth 
 fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, rough: &[At], noise: Noise) -> Vec<Vertex> {
     let Smooth { samples, tangents } = smooth;
     if rough.is_empty() {
-        return arcs::arcs((&samples.points, tangents), &samples.parts, line.is_closed, noise.rms);
+        return arcs::arcs(&samples.points, tangents, &samples.parts, line.is_closed, noise.rms);
     }
     // Arc length of each crossing along the contour, and of the end.
     let mut far = vec![0.0];
@@ -209,7 +209,7 @@ fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, roug
         } else {
             let pick = |from: &[Vec2]| smooth_run.iter().map(|&k| from[k]).collect::<Vec<_>>();
             let last = smooth_run.len() - 1;
-            found.extend(arcs::arcs((&pick(&samples.points), &pick(tangents)), &[0, last], false, noise.rms));
+            found.extend(arcs::arcs(&pick(&samples.points), &pick(tangents), &[0, last], false, noise.rms));
         }
     }
     found
