@@ -117,7 +117,7 @@ pub(crate) fn load_from(
     let given = if let Origin::Started(_, state) = origin { Some(*state) } else { None };
     let start = start::start(&mut checker, &raw, folder, given, geometry.as_ref(), &mut sources);
     if let Some(network) = &mut raw.network {
-        network::measured::read(&mut checker, network, folder);
+        network::measured::read(&mut checker, &mut network.measured, &mut network.measured_throats, folder);
     }
     let has_wetting_table = raw.sph.as_ref().is_some_and(|sph| sph.wetting.is_some());
     let mut model = model(&mut checker, &mut raw, geometry.as_ref(), start);

@@ -24,6 +24,8 @@ struct Keys<'s> {
     schema: &'s Value,
     /// The source of the types, which has the order of the keys.
     source: String,
+    /// The source of the options of drawings.
+    options: String,
     /// Paths of the blocks of the page.
     blocks: BTreeSet<String>,
     /// Where each table, or long list of words, is described first, by the name of its type.
@@ -42,9 +44,14 @@ impl Keys<'_> {
     /// The keys of a table in the order of their declaration.
     fn keys<'v>(&self, name: &str, table: &'v Value) -> Vec<(&'v str, &'v Value)> {
         let declaration = self.source.split_once(&format!("struct {name} ")).map_or("", |(_, rest)| rest);
+        // Options of drawings follow the other keys, and the names of groups of measures follow their table.
+        let own = declaration.split("}\n").next().unwrap_or_default();
+        let declaration = [own, &self.options, declaration].concat();
         let place = |key: &str| {
             let field = if key == "where" { "only".to_owned() } else { key.replace('-', "_") };
-            declaration.find(&format!("pub {field}:")).unwrap_or_else(|| panic!("{name} has no field for {key}"))
+            let written = [format!("pub {field}:"), format!("\n            {field}: ")];
+            let first = written.iter().filter_map(|field| declaration.find(field)).min();
+            first.unwrap_or_else(|| panic!("{name} has no field for {key}"))
         };
         let keys = table["properties"].as_object().into_iter().flatten();
         let mut keys: Vec<_> = keys.map(|(key, value)| (key.as_str(), value)).collect();
@@ -162,7 +169,8 @@ fn written(page: &str, schema: &Value, folders: &[&str]) -> String {
     let path = |rest: &str| rest.split("-->").next().unwrap_or_default().trim().to_owned();
     let blocks: BTreeSet<String> = page.split("<!-- keys:").skip(1).map(path).collect();
     assert!(blocks.contains(""), "the page has no block for the whole file");
-    let mut keys = Keys { schema, source: source.collect(), blocks, described: BTreeMap::new() };
+    let options = text("src/geometry/import/options.rs");
+    let mut keys = Keys { schema, source: source.collect(), options, blocks, described: BTreeMap::new() };
     filled(page, "keys", |path| {
         let (name, table) = keys.at(path);
         self::table(&keys.rows((&name, &table), path))

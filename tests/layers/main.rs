@@ -48,7 +48,7 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
             "io",
         ],
     ),
-    ("study", &["diagram", "input", "case", "analysis", "io", "run"]),
+    ("study", &["math", "diagram", "input", "case", "analysis", "io", "run"]),
     ("verify", &["math", "input", "geometry", "case", "interface", "network", "io", "study"]),
     (
         "cli",
@@ -72,7 +72,7 @@ const ONE_PLACE: [(&str, &[&str]); 7] = [
 ];
 
 /// Libraries for one purpose, with the files that may use them, by the beginning of their path.
-const PLACES: [(&str, &[&str]); 32] = [
+const PLACES: [(&str, &[&str]); 31] = [
     ("ab_glyph", &["io/picture/"]),
     ("base64", &["io/vtk/"]),
     ("clap", &["cli/"]),
@@ -82,12 +82,9 @@ const PLACES: [(&str, &[&str]); 32] = [
     ("ctrlc", &["cli/"]),
     ("dejavu", &["io/picture/"]),
     ("delaunator", &["geometry/"]),
-    ("dxf", &["geometry/"]),
     ("flate2", &["io/vtk/"]),
     ("geo", &["geometry/"]),
     ("geojson", &["geometry/"]),
-    // Masks are read and written, pictures written.
-    ("image", &["geometry/", "io/picture/"]),
     ("indicatif", &["cli/"]),
     ("lz4_flex", &["io/vtk/"]),
     // Errors in input carry their place as `miette` wants it; only the command line prints them.
@@ -95,6 +92,8 @@ const PLACES: [(&str, &[&str]); 32] = [
     ("mimalloc", &["main.rs"]),
     ("parry2d_f64", &["geometry/"]),
     ("plotters", &["io/axes.rs", "io/diagram.rs"]),
+    // Masks are read and written, pictures written.
+    ("png", &["geometry/export/mask.rs", "geometry/import/mask/", "io/picture/"]),
     // Packs of grains, and throats by chance.
     ("rand_chacha", &["geometry/pack/", "verify/choose.rs"]),
     ("raw_cpuid", &["cli/"]),

@@ -1,11 +1,10 @@
 //! Entry pressures measured by direct simulation: `measured.json` of `meniscus network verify`, and the same within a case.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::table::RawNetwork;
 use crate::input::Checker;
 use crate::input::tables::Value;
 
@@ -34,10 +33,15 @@ pub struct MeasuredThroat {
 impl Value for Measured {}
 
 /// Replaces the file of measured values, if there is one, by the values.
-pub(in crate::case) fn read(checker: &mut Checker, raw: &mut RawNetwork, folder: &Path) {
-    let Some(file) = raw.measured.take() else { return };
+pub(in crate::case) fn read(
+    checker: &mut Checker,
+    named: &mut Option<PathBuf>,
+    values: &mut Option<Measured>,
+    folder: &Path,
+) {
+    let Some(file) = named.take() else { return };
     const PATH: &str = "network.measured";
-    if raw.measured_throats.is_some() {
+    if values.is_some() {
         return checker.refuse(
             PATH,
             "measured values are given twice, by this file and by [network.measured-throats]",
@@ -52,7 +56,7 @@ pub(in crate::case) fn read(checker: &mut Checker, raw: &mut RawNetwork, folder:
             Err(error) => {
                 checker.refuse(PATH, format!("{} is not a list of measured throats: {error}", path.display()), help)
             }
-            Ok(measured) => raw.measured_throats = Some(measured),
+            Ok(measured) => *values = Some(measured),
         },
     }
 }

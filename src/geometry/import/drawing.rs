@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::curve::Curve;
-use crate::geometry::import::rings::of_closed_line;
 use crate::geometry::spec::{CurvedPolygon, Polygon, ShapeSpec};
 use crate::math::{Bounds, Vec2};
 
@@ -143,28 +142,6 @@ impl Drawing {
     /// Adds a filled shape.
     pub(crate) fn add(&mut self, outline: Outline, location: String) {
         self.entities.push(Entity { outline, paint: Paint::Filled, location });
-    }
-
-    /// Adds a polygon by lines whose last points repeat their first ones; an empty one is counted. A line is `None` if a point has no x or y.
-    ///
-    /// # Errors
-    /// What is wrong with its rings.
-    pub(crate) fn add_polygon(&mut self, lines: Vec<Option<Vec<[f64; 2]>>>, location: &str) -> Vec<Refusal> {
-        let (mut found, mut bad) = (Vec::new(), Vec::new());
-        if lines.is_empty() {
-            self.count("empty geometries", 1);
-        }
-        for (k, line) in lines.into_iter().enumerate() {
-            let incomplete = || ("a point without x and y".to_owned(), "points [x, y]".to_owned());
-            match line.ok_or_else(incomplete).and_then(|line| of_closed_line(&line)) {
-                Ok(ring) => found.push(ring),
-                Err((what, expected)) => bad.push(Refusal::new(location, format!("ring {k}: {what}"), expected)),
-            }
-        }
-        if !found.is_empty() {
-            self.add(Outline::Area { rings: found, rule: FillRule::EvenOdd }, location.to_owned());
-        }
-        bad
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::cross;
-use crate::geometry::import::drawing::Ring;
+use crate::geometry::import::drawing::{Drawing, FillRule, Outline, Refusal, Ring};
 use crate::math::{Bounds, Vec2};
 
 /// Gaps between the first and last point below this fraction of the ring's larger side are closed.
@@ -33,6 +33,30 @@ pub(crate) fn of_closed_line(points: &[[f64; 2]]) -> Result<Ring, (String, Strin
     }
     let vertices = std::iter::once(first).chain(middle).map(|&[x, y]| [x, y, 0.0]).collect();
     Ok(Ring { vertices })
+}
+
+impl Drawing {
+    /// Adds a polygon by lines whose last points repeat their first ones; an empty one is counted. A line is `None` if a point has no x or y.
+    ///
+    /// # Errors
+    /// What is wrong with its rings.
+    pub(crate) fn add_polygon(&mut self, lines: Vec<Option<Vec<[f64; 2]>>>, location: &str) -> Vec<Refusal> {
+        let (mut found, mut bad) = (Vec::new(), Vec::new());
+        if lines.is_empty() {
+            self.count("empty geometries", 1);
+        }
+        for (k, line) in lines.into_iter().enumerate() {
+            let incomplete = || ("a point without x and y".to_owned(), "points [x, y]".to_owned());
+            match line.ok_or_else(incomplete).and_then(|line| of_closed_line(&line)) {
+                Ok(ring) => found.push(ring),
+                Err((what, expected)) => bad.push(Refusal::new(location, format!("ring {k}: {what}"), expected)),
+            }
+        }
+        if !found.is_empty() {
+            self.add(Outline::Area { rings: found, rule: FillRule::EvenOdd }, location.to_owned());
+        }
+        bad
+    }
 }
 
 fn too_few(count: usize) -> (String, String) {
