@@ -10,7 +10,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use meniscus::case::film::{FilmIntegrator, FilmWeights, LatticeEnergy};
 use meniscus::thin_film::backward_euler::StepRule;
 use meniscus::thin_film::droplet::{Droplet, particles};
-use meniscus::thin_film::grid_film::{Equation, GridFilm};
+use meniscus::thin_film::grid_film::GridFilm;
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Implicit, Integrator, Tolerance};
 use meniscus::thin_film::particles::{ParticleMethod, Pull};
@@ -104,7 +104,7 @@ fn grid_steps(criterion: &mut Criterion) {
         let alpha = if count > 10_000 { 0.01 } else { ALPHA };
         let line = Line { from: -1.0, count, spacing: 2.0 / count as f64, alpha, wetting: 1.16, bond: 0.0 };
         let (ring, height) = Ring::new(line, &[DROPLET], FilmWeights::Cell).unwrap();
-        let start = GridFilm::new(Equation::Ring(ring), height, StepRule::fixed(1.0e-6));
+        let start = GridFilm::new(ring, height, StepRule::fixed(1.0e-6));
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::new("ring", count), |bencher| {
             bencher.iter(|| black_box(start.clone()).step(1.0).is_ok());

@@ -89,14 +89,14 @@ fn column_measures(column: &Column) -> Vec<Measure> {
     );
     if column.axis == 0 {
         vec![
-            measure("permeability-xx-m2", k.x, "m2").by(&of("x")),
-            measure("permeability-yx-m2", k.y, "m2").by(&of("y")),
+            measure("permeability-xx-m2", k.x, "m2").by(of("x")),
+            measure("permeability-yx-m2", k.y, "m2").by(of("y")),
             measure("unsteady-share-x", share, "").by(&of_share),
         ]
     } else {
         vec![
-            measure("permeability-xy-m2", k.x, "m2").by(&of("x")),
-            measure("permeability-yy-m2", k.y, "m2").by(&of("y")),
+            measure("permeability-xy-m2", k.x, "m2").by(of("x")),
+            measure("permeability-yy-m2", k.y, "m2").by(of("y")),
             measure("unsteady-share-y", share, "").by(&of_share),
         ]
     }

@@ -27,8 +27,8 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let of_saturation = "area of the wetting phase over that of both at time zero";
     vec![
         measure("permeability-m2", k, "m2").by(&of_whole),
-        measure("relative-permeability-wetting", of_wetting / k, "").by(&relative("wetting")),
-        measure("relative-permeability-non-wetting", of_other / k, "").by(&relative("non-wetting")),
+        measure("relative-permeability-wetting", of_wetting / k, "").by(relative("wetting")),
+        measure("relative-permeability-non-wetting", of_other / k, "").by(relative("non-wetting")),
         measure("saturation", s.start.saturation(), "").by(of_saturation),
         measure("unsteady-share", share, "").by(of_share),
     ]

@@ -200,11 +200,7 @@ impl<'a, 'input> Walk<'a, 'input> {
                     self.element(child, &context);
                 }
             }
-            "svg" => {
-                if self.viewport(node, node, &mut context).is_some() {
-                    self.children(node, &context);
-                }
-            }
+            "svg" if self.viewport(node, node, &mut context).is_some() => self.children(node, &context),
             "use" => self.copy(node, context),
             "text" | "image" | "foreignObject" => self.count(name),
             _ if shape::SHAPES.contains(&name) => {
