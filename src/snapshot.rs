@@ -37,6 +37,23 @@ pub struct Field<'a> {
     pub values: Values<'a>,
 }
 
+impl Field<'static> {
+    /// A field of numbers.
+    pub(crate) fn scalar(name: &'static str, unit: &'static str, values: impl IntoIterator<Item = f64>) -> Self {
+        Self { name, unit, values: Values::Scalar(values.into_iter().collect()) }
+    }
+
+    /// A field of vectors.
+    pub(crate) fn vector(name: &'static str, unit: &'static str, values: impl IntoIterator<Item = Vec2>) -> Self {
+        Self { name, unit, values: Values::Vector(values.into_iter().collect()) }
+    }
+
+    /// A field of whole numbers without unit.
+    pub(crate) fn integer(name: &'static str, values: impl IntoIterator<Item = i64>) -> Self {
+        Self { name, unit: "", values: Values::Integer(values.into_iter().collect()) }
+    }
+}
+
 impl Field<'_> {
     /// The same with owned values.
     pub(crate) fn into_owned(self) -> Field<'static> {

@@ -67,7 +67,7 @@ pub(super) fn no_side_is_driven(checker: &mut Checker, sph: &Sph) -> bool {
 
 /// Refuses a force that is incompatible with the sides.
 fn force(checker: &mut Checker, sph: &Sph) {
-    let is_periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
+    let is_periodic = sph.sides.periodic();
     if is_periodic == [false; 2] {
         checker.refuse(
             "sph.measure.permeability",

@@ -193,8 +193,7 @@ pub(super) fn etched(checker: &mut Checker, spec: GeometrySpec, offset: Option<f
 /// Refuses shapes whose images beyond periodic sides would be too many.
 pub(super) fn refuse_images(checker: &mut Checker, geometry: Option<&GeometrySpec>, sides: Option<&Sides>) {
     let Some(sides) = sides else { return };
-    let periodic = [sides.left == Side::Periodic, sides.bottom == Side::Periodic];
-    for problem in geometry.map_or_else(Vec::new, |geometry| geometry.periodic_problems(periodic)) {
+    for problem in geometry.map_or_else(Vec::new, |geometry| geometry.periodic_problems(sides.periodic())) {
         checker.refuse(format!("geometry.{}", problem.path), problem.message, problem.help);
     }
 }

@@ -7,18 +7,10 @@ use super::occupation::Occupation;
 use super::summary::pore_states;
 use super::tables::{arms, center, kept, length, pores_of, radius};
 use crate::math::Vec2;
-use crate::snapshot::{CellKind, Field, Layer, Lines, Values};
+use crate::snapshot::{CellKind, Field, Layer, Lines};
 
 /// Sequence number of elements that no event filled.
 const NOT_INVADED: i64 = -1;
-
-fn scalar(name: &'static str, unit: &'static str, values: impl IntoIterator<Item = f64>) -> Field<'static> {
-    Field { name, unit, values: Values::Scalar(values.into_iter().collect::<Vec<_>>().into()) }
-}
-
-fn integer(name: &'static str, values: impl IntoIterator<Item = i64>) -> Field<'static> {
-    Field { name, unit: "", values: Values::Integer(values.into_iter().collect::<Vec<_>>().into()) }
-}
 
 /// Phase numbers as in all other files: 0 wetting, 1 non-wetting.
 fn phase(fluid: FluidPhase) -> i64 {
@@ -51,20 +43,24 @@ pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -
     let pressure = |invasion: &Invasion| config.pressure(occupation.invading, invasion.applied);
     let invasions = || occupation.invasions.iter();
     let mut fields = vec![
-        integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
-        integer("phase", (0..elements.len()).map(|element| phase(occupation.fluid(element)))),
-        scalar("invading-share", "", occupation.share.iter().copied()),
-        integer("trapped", occupation.trapped.iter().map(|&trapped| i64::from(trapped))),
-        integer("sequence", invasions().map(|it| it.map_or(NOT_INVADED, |invasion| invasion.sequence as i64))),
-        scalar("capillary-pressure-at-invasion", "Pa", invasions().map(|it| it.as_ref().map_or(f64::NAN, pressure))),
-        scalar(
+        Field::integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
+        Field::integer("phase", (0..elements.len()).map(|element| phase(occupation.fluid(element)))),
+        Field::scalar("invading-share", "", occupation.share.iter().copied()),
+        Field::integer("trapped", occupation.trapped.iter().map(|&trapped| i64::from(trapped))),
+        Field::integer("sequence", invasions().map(|it| it.map_or(NOT_INVADED, |invasion| invasion.sequence as i64))),
+        Field::scalar(
+            "capillary-pressure-at-invasion",
+            "Pa",
+            invasions().map(|it| it.as_ref().map_or(f64::NAN, pressure)),
+        ),
+        Field::scalar(
             "displaced-saturation-at-invasion",
             "",
             invasions().map(|it| it.map_or(f64::NAN, |invasion| invasion.displaced)),
         ),
     ];
     if let Some(films) = &occupation.films {
-        fields.push(scalar("film-volume", "m3", films.volume.iter().copied()));
+        fields.push(Field::scalar("film-volume", "m3", films.volume.iter().copied()));
     }
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
@@ -73,9 +69,9 @@ pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -
 pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64]) -> Layer<'static> {
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
     let fields = vec![
-        integer("pore", elements.iter().map(|element| config.pores.pore_of[element.region] as i64)),
-        scalar("area", "m2", elements.iter().map(|element| element.area)),
-        scalar("invasion-probability", "", probability.iter().copied()),
+        Field::integer("pore", elements.iter().map(|element| config.pores.pore_of[element.region] as i64)),
+        Field::scalar("area", "m2", elements.iter().map(|element| element.area)),
+        Field::scalar("invasion-probability", "", probability.iter().copied()),
     ];
     Layer { name: "invasion", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
@@ -84,8 +80,8 @@ fn plain_regions(config: &Configuration) -> Layer<'static> {
     let (points, cells) = joined(config.network.regions.iter().map(super::displacement::outline));
     let pores = &config.pores.pore_of;
     let fields = vec![
-        integer("pore", pores.iter().map(|&pore| pore as i64)),
-        scalar("inscribed-radius", "m", pores.iter().map(|&pore| radius(config, pore))),
+        Field::integer("pore", pores.iter().map(|&pore| pore as i64)),
+        Field::scalar("inscribed-radius", "m", pores.iter().map(|&pore| radius(config, pore))),
     ];
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
@@ -96,16 +92,16 @@ pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) 
     let count = config.pores.main_region.len();
     let centers: Vec<Vec2> = (0..count).map(|pore| center(config, pore)).collect();
     let mut fields = vec![
-        integer("pore", 0..count as i64),
-        scalar("inscribed-radius", "m", (0..count).map(|pore| radius(config, pore))),
-        scalar("area", "m2", config.pores.area.iter().copied()),
+        Field::integer("pore", 0..count as i64),
+        Field::scalar("inscribed-radius", "m", (0..count).map(|pore| radius(config, pore))),
+        Field::scalar("area", "m2", config.pores.area.iter().copied()),
     ];
     if let Some(occupation) = occupation {
         let states = pore_states(config, occupation);
         fields.extend([
-            integer("phase", states.iter().map(|state| phase(state.fluid))),
-            integer("trapped", states.iter().map(|state| i64::from(state.is_trapped))),
-            integer(
+            Field::integer("phase", states.iter().map(|state| phase(state.fluid))),
+            Field::integer("trapped", states.iter().map(|state| i64::from(state.is_trapped))),
+            Field::integer(
                 "sequence",
                 states.iter().map(|state| state.invasion.map_or(NOT_INVADED, |invasion| invasion.sequence as i64)),
             ),
@@ -125,15 +121,15 @@ fn throats(model: &Model) -> Layer<'static> {
         }));
     let both = || kept(config).flat_map(|throat| [throat, throat]);
     let mut fields = vec![
-        integer("throat", (0..config.pores.throats.len() as i64).flat_map(|throat| [throat, throat])),
-        integer("pore-1", both().map(|throat| pores_of(config, throat)[0] as i64)),
-        integer("pore-2", both().map(|throat| pores_of(config, throat)[1] as i64)),
-        scalar("width", "m", both().map(|throat| throat.width)),
-        scalar("length", "m", both().map(|throat| length(config, throat))),
+        Field::integer("throat", (0..config.pores.throats.len() as i64).flat_map(|throat| [throat, throat])),
+        Field::integer("pore-1", both().map(|throat| pores_of(config, throat)[0] as i64)),
+        Field::integer("pore-2", both().map(|throat| pores_of(config, throat)[1] as i64)),
+        Field::scalar("width", "m", both().map(|throat| throat.width)),
+        Field::scalar("length", "m", both().map(|throat| length(config, throat))),
     ];
     if let Some(pressures) = model.entry_pressures() {
         let both = config.pores.throats.iter().flat_map(|&throat| [pressures[throat]; 2]);
-        fields.push(scalar("entry-pressure", "Pa", both));
+        fields.push(Field::scalar("entry-pressure", "Pa", both));
     }
     Layer { name: "throats", kind: CellKind::Lines, points: points.into(), cells, fields }
 }

@@ -20,18 +20,6 @@ const CURVATURE_REACH: f64 = 2.5;
 /// Number of grid nodes per batch of the interpolation.
 const NODES_AT_ONCE: usize = 1 << 15;
 
-fn scalar(name: &'static str, unit: &'static str, values: Vec<f64>) -> Field<'static> {
-    Field { name, unit, values: Values::Scalar(Cow::Owned(values)) }
-}
-
-fn vector(name: &'static str, unit: &'static str, values: Vec<Vec2>) -> Field<'static> {
-    Field { name, unit, values: Values::Vector(Cow::Owned(values)) }
-}
-
-fn integer(name: &'static str, values: Vec<i64>) -> Field<'static> {
-    Field { name, unit: "", values: Values::Integer(Cow::Owned(values)) }
-}
-
 /// The state for output; `grid_spacing` in m.
 pub(crate) fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
     let mut particles = particles(flow, observation.thin(flow));
@@ -66,27 +54,28 @@ fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
 
 fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
     let (p, f, n) = (&flow.state.particles, &flow.fields, flow.state.particles.len());
-    let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
-    let (distance, normal) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
+    let on_fluid =
+        |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect::<Vec<_>>();
+    let (distance, normal): (Vec<_>, Vec<_>) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
     let [surface_force, line_force] = volume_forces(flow);
     let (driving, from) = (flow.view().driving_gradient(), flow.config.domain.bounds.min);
-    let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
+    let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from)));
     let profile = flow.config.method.profile();
     let fields = vec![
-        integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
-        integer("below-resolution", below_resolution(flow, thin)),
-        integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
-        vector("velocity", "m/s", p.velocity.clone()),
-        scalar("pressure", "Pa", pressure),
-        scalar("density", "kg/m^3", f.bulk.density[..n].iter().map(|density| density / profile).collect()),
-        scalar("volume", "m^2", f.bulk.volume[..n].to_vec()),
-        scalar("color", "", f.interface.color[..n].to_vec()),
-        vector("normal", "1/m", f.interface.normal[..n].to_vec()),
-        scalar("curvature", "1/m", f.interface.curvature.clone()),
-        vector("surface-force", "N/m^3", on_fluid(&surface_force)),
-        vector("line-force", "N/m^3", on_fluid(&line_force)),
-        scalar("wall-distance", "m", distance),
-        vector("wall-normal", "", normal),
+        Field::integer("id", p.id.iter().map(|&id| i64::from(id))),
+        Field::integer("below-resolution", below_resolution(flow, thin)),
+        Field::integer("phase", p.phase.iter().map(|phase| phase.number())),
+        Field::vector("velocity", "m/s", p.velocity.clone()),
+        Field::scalar("pressure", "Pa", pressure),
+        Field::scalar("density", "kg/m^3", f.bulk.density[..n].iter().map(|density| density / profile)),
+        Field::scalar("volume", "m^2", f.bulk.volume[..n].to_vec()),
+        Field::scalar("color", "", f.interface.color[..n].to_vec()),
+        Field::vector("normal", "1/m", f.interface.normal[..n].to_vec()),
+        Field::scalar("curvature", "1/m", f.interface.curvature.clone()),
+        Field::vector("surface-force", "N/m^3", on_fluid(&surface_force)),
+        Field::vector("line-force", "N/m^3", on_fluid(&line_force)),
+        Field::scalar("wall-distance", "m", distance),
+        Field::vector("wall-normal", "", normal),
     ];
     Cloud { points: Cow::Owned(p.position.clone()), fields }
 }
@@ -113,8 +102,8 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
         |field: &&Field| !matches!(field.name, "wall-distance" | "wall-normal" | "id" | "phase" | "below-resolution");
     let given: Vec<&Field> = particles.fields.iter().filter(interpolated).collect();
     let empty = |field: &&Field| match field.values {
-        Values::Vector(_) => vector(field.name, field.unit, Vec::with_capacity(points.len())),
-        _ => scalar(field.name, field.unit, Vec::with_capacity(points.len())),
+        Values::Vector(_) => Field::vector(field.name, field.unit, Vec::with_capacity(points.len())),
+        _ => Field::scalar(field.name, field.unit, Vec::with_capacity(points.len())),
     };
     let mut fields: Vec<Field> = given.iter().map(empty).collect();
     let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
@@ -135,9 +124,9 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
             }
         }
     }
-    let (distance, normal) = points.par_iter().map(|&x| wall(flow, x)).unzip();
-    fields.push(scalar("wall-distance", "m", distance));
-    fields.push(vector("wall-normal", "", normal));
+    let (distance, normal): (Vec<_>, Vec<_>) = points.par_iter().map(|&x| wall(flow, x)).unzip();
+    fields.push(Field::scalar("wall-distance", "m", distance));
+    fields.push(Field::vector("wall-normal", "", normal));
     lattice.grid(fields)
 }
 
@@ -150,5 +139,5 @@ fn interface(lines: &[Polyline], h: f64) -> Lines<'static> {
         curvature.extend(line.curvature(CURVATURE_REACH * h).into_iter().map(|k| if k.is_finite() { k } else { 0.0 }));
         indices.push((first..first + count).chain(line.closed.then_some(first)).collect());
     }
-    Lines { points: Cow::Owned(points), lines: indices, fields: vec![scalar("curvature", "1/m", curvature)] }
+    Lines { points: Cow::Owned(points), lines: indices, fields: vec![Field::scalar("curvature", "1/m", curvature)] }
 }

@@ -91,10 +91,6 @@ impl ThinFilmSolver {
     }
 }
 
-fn scalar(name: &'static str, unit: &'static str, values: impl IntoIterator<Item = f64>) -> Field<'static> {
-    Field { name, unit, values: Values::Scalar(values.into_iter().collect::<Vec<_>>().into()) }
-}
-
 impl Solver for ThinFilmSolver {
     fn time(&self) -> f64 {
         self.observed.time
@@ -144,14 +140,14 @@ impl Solver for ThinFilmSolver {
             Field { name: "id", unit: "", values: integers((0..count as i64).collect()) },
             Field { name: "phase", unit: "", values: integers(vec![0; count]) },
             Field { name: "velocity", unit: "m/s", values: Values::Vector(velocity.into()) },
-            scalar("pressure", "Pa", fields.curvature.iter().map(|c| c * pressure)),
-            scalar("volume", volume, fields.mass.iter().map(|m| m * mass)),
-            scalar("film-height", "m", fields.height.iter().map(|h| h * s.height)),
+            Field::scalar("pressure", "Pa", fields.curvature.iter().map(|c| c * pressure)),
+            Field::scalar("volume", volume, fields.mass.iter().map(|m| m * mass)),
+            Field::scalar("film-height", "m", fields.height.iter().map(|h| h * s.height)),
         ];
         let profile = self.observed.profile();
         let line: Vec<Vec2> = profile.x.iter().zip(&profile.height).map(point).collect();
         let lines = vec![(0..line.len() as u32).collect()];
-        let curvature = scalar("curvature", "1/m", profile.curvature.iter().map(|c| c * s.curvature()));
+        let curvature = Field::scalar("curvature", "1/m", profile.curvature.iter().map(|c| c * s.curvature()));
         Snapshot {
             time: self.observed.time,
             step: self.steps,

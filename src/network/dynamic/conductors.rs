@@ -44,7 +44,7 @@ impl Dynamic {
         let elements = self.state.filling.len();
         // Adjoining elements of one region that hold the same phase have one pressure.
         let mut parent: Vec<usize> = (0..elements).collect();
-        for gate in self.gates.iter().filter(|gate| gate.throat.is_none()) {
+        for gate in self.space.gates.iter().filter(|gate| gate.throat.is_none()) {
             let [a, b] = gate.elements;
             if self.is_invaded(a) == self.is_invaded(b) {
                 let (a, b) = (root(&mut parent, a), root(&mut parent, b));
@@ -63,12 +63,12 @@ impl Dynamic {
                 number[part]
             })
             .collect();
-        let inlet = matches!(self.terms.drive, Drive::Rate(_)).then_some(nodes);
+        let inlet = matches!(self.space.terms.drive, Drive::Rate(_)).then_some(nodes);
         nodes += usize::from(inlet.is_some());
         let mut filling_pores = self.filling_pores(&mut nodes);
-        let mut link_of = vec![None; self.gates.len()];
+        let mut link_of = vec![None; self.space.gates.len()];
         let (mut links, mut edges): (Vec<Link>, Vec<Edge>) = (Vec::new(), Vec::new());
-        for (index, gate) in self.gates.iter().enumerate() {
+        for (index, gate) in self.space.gates.iter().enumerate() {
             let [a, b] = gate.elements;
             let halves = self.halves(index);
             let menisci = &self.state.menisci[index];
@@ -90,15 +90,15 @@ impl Dynamic {
                 edges.push(Edge { ends: (node_of[a], Some(node_of[b])), is_good: true });
             }
         }
-        for &(opening, element) in &self.openings {
-            let side = self.network.openings[opening].side;
+        for &(opening, element) in &self.space.openings {
+            let side = self.space.network.openings[opening].side;
             let kind = match () {
-                () if self.terms.inlet[side] => LinkKind::Inlet,
-                () if self.terms.outlet[side] => LinkKind::Outlet,
+                () if self.space.terms.inlet[side] => LinkKind::Inlet,
+                () if self.space.terms.outlet[side] => LinkKind::Outlet,
                 () => continue,
             };
             // Flow into a filling pore is against the direction of the link.
-            let mut halves = [0.0, self.opening_resistances[opening]];
+            let mut halves = [0.0, self.space.opening_resistances[opening]];
             let mut node = node_of[element];
             if let Some(filling_pore) = filling_pores.get_mut(&element).filter(|_| kind == LinkKind::Inlet) {
                 node = filling_pore.node;
@@ -124,8 +124,8 @@ impl Dynamic {
         // An element between two menisci that have merged around a grain fills once a meniscus has entered it.
         let enters = |&(gate, end): &FrontId| self.state.menisci[gate][end].is_some_and(|meniscus| meniscus.has_burst);
         let is_entered = |&e: &usize| {
-            let has_way_in = self.is_inlet[e] || self.displacement.gates_of(e).iter().any(enters);
-            self.state.filling[e].is_some() && !self.is_outlet[e] && has_way_in
+            let has_way_in = self.space.is_inlet[e] || self.displacement.gates_of(e).iter().any(enters);
+            self.state.filling[e].is_some() && !self.space.is_outlet[e] && has_way_in
         };
         let filling = (0..self.state.filling.len()).filter(is_entered);
         let mut next = || {
@@ -137,11 +137,11 @@ impl Dynamic {
 
     /// Resistances in 1/m² of both sides of a gate. A segment that divides a region resists as a square channel of its width.
     fn halves(&self, gate: usize) -> [f64; 2] {
-        let facts = &self.gates[gate];
+        let facts = &self.space.gates[gate];
         let width = facts.width;
         match facts.throat {
             Some(throat) => {
-                let halves = self.resistances[throat];
+                let halves = self.space.resistances[throat];
                 let missing = (LEAST / (width * width) - halves[0] - halves[1]).max(0.0);
                 halves.map(|half| half + 0.5 * missing)
             }
@@ -151,7 +151,7 @@ impl Dynamic {
 
     /// Viscosity in Pa s of the phase in an element; in a filling element the mean by area.
     pub(super) fn viscosity(&self, element: usize) -> f64 {
-        let [invading, defending] = self.terms.viscosity;
+        let [invading, defending] = self.space.terms.viscosity;
         match &self.state.filling[element] {
             _ if self.is_invaded(element) => invading,
             Some(_) => defending + self.share(element) * (invading - defending),

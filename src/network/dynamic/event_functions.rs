@@ -91,7 +91,7 @@ impl Dynamic {
     /// The functions of all events of the present menisci and elements.
     pub(super) fn event_functions(&self) -> Vec<EventFunction> {
         let mut event_functions = Vec::new();
-        for (index, advance) in self.advances.iter().enumerate() {
+        for (index, advance) in self.fronts.advances.iter().enumerate() {
             match advance.fronts {
                 (front, _) if !self.waits(front) => {}
                 (front, None) => event_functions.push(EventFunction::Own(index, front)),
@@ -104,7 +104,7 @@ impl Dynamic {
         for element in (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element)) {
             let fronts: Vec<FrontId> = self.entering(element).map(|(front, _)| front).collect();
             // An element at the outlet is never full: the invading phase leaves it.
-            let is_leaving = self.is_outlet[element] && !fronts.is_empty();
+            let is_leaving = self.space.is_outlet[element] && !fronts.is_empty();
             if self.state.filling[element].is_some() && !is_leaving {
                 continue;
             }
@@ -115,7 +115,7 @@ impl Dynamic {
             }
         }
         for (element, filling) in self.state.filling.iter().enumerate() {
-            let Some(filling) = filling.as_ref().filter(|_| !self.is_outlet[element]) else { continue };
+            let Some(filling) = filling.as_ref().filter(|_| !self.space.is_outlet[element]) else { continue };
             let excess_areas: f64 = self.excess_areas(element).iter().map(|(_, area)| area).sum();
             let target = self.target(element, filling) - excess_areas;
             event_functions.push(EventFunction::Full { element, target });
@@ -142,7 +142,7 @@ impl Dynamic {
                 filling_pores.iter().position(|filling_pore| filling_pore.element == behind).map(Side::FillingPore);
             filling_pore.or_else(|| self.waits(front).then_some(Side::Front(front)))
         };
-        for advance in &self.meetings_to_come {
+        for advance in &self.fronts.meetings_to_come {
             if let (front, Some(partner)) = advance.fronts
                 && let (Some(one), Some(other)) = (side(front), side(partner))
                 && self.is_new(advance)
@@ -156,7 +156,7 @@ impl Dynamic {
     /// The filling elements from which the defending phase has a path to an outlet.
     pub(super) fn open_fillings(&self) -> Vec<usize> {
         let trapped = self.trapped();
-        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.is_outlet[e] && !trapped[e];
+        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.space.is_outlet[e] && !trapped[e];
         (0..trapped.len()).filter(fills).collect()
     }
 
@@ -188,13 +188,13 @@ impl Dynamic {
             full,
             passes: false,
             first: first.map(|_| points[points.len() - 1].0),
-            curve: CapillaryCurve::of_body(&points, 1.0 / (CLOSED * own * own.sqrt())).between(&self.terms),
+            curve: CapillaryCurve::of_body(&points, 1.0 / (CLOSED * own * own.sqrt())).between(&self.space.terms),
         }
     }
 
     /// Scale in m² of errors of the area in an element: larger if menisci ahead can take an excess.
     fn scale_of_filling(&self, element: usize) -> f64 {
-        let loose = if self.ahead[element].is_empty() { 1.0 } else { LOOSE };
+        let loose = if self.fronts.ahead[element].is_empty() { 1.0 } else { LOOSE };
         loose * self.displacement.elements()[element].area
     }
 
@@ -205,7 +205,7 @@ impl Dynamic {
         function: &EventFunction,
         at: &Areas<F, B>,
     ) -> f64 {
-        let curve = |front: FrontId| self.curves[front.0][front.1].as_ref();
+        let curve = |front: FrontId| self.fronts.curves[front.0][front.1].as_ref();
         let curvature = |front: FrontId| curve(front).map_or(f64::NEG_INFINITY, |it| it.curvature((at.front)(front)));
         let element_area = |element: usize| self.displacement.elements()[element].area;
         match function {
@@ -214,7 +214,7 @@ impl Dynamic {
             }
             EventFunction::Meeting(advance, fronts) => {
                 let mean = 0.5 * (curvature(fronts[0]) + curvature(fronts[1]));
-                (self.advances[*advance].curvature - mean) * self.gates[fronts[0].0].width
+                (self.fronts.advances[*advance].curvature - mean) * self.space.gates[fronts[0].0].width
             }
             EventFunction::Covered { element, fronts, held } => {
                 let covered: f64 = held + fronts.iter().map(|&front| (at.front)(front)).sum::<f64>();
@@ -241,7 +241,7 @@ impl Dynamic {
             EventFunction::ToMeet(sides, event) => {
                 let mut missing = f64::NEG_INFINITY;
                 let mut side = |side: &Side| match *side {
-                    Side::Front(front) => (curvature(front), self.gates[front.0].width),
+                    Side::Front(front) => (curvature(front), self.space.gates[front.0].width),
                     Side::FillingPore(index) => {
                         let (filling_pore, area) = (&filling_pores[index], (at.filling_pore)(index));
                         let own = element_area(filling_pore.element);

@@ -34,7 +34,7 @@ impl Dynamic {
     /// Overlaps of the menisci that will form when filling elements are full, with one another and with present ones.
     pub(super) fn find_future_meetings(&self) -> Vec<Advance> {
         let filling: Vec<usize> = (0..self.state.filling.len())
-            .filter(|&element| self.state.filling[element].is_some() && !self.is_outlet[element])
+            .filter(|&element| self.state.filling[element].is_some() && !self.space.is_outlet[element])
             .collect();
         if filling.is_empty() {
             return Vec::new();
@@ -52,7 +52,7 @@ impl Dynamic {
 
     /// The menisci that will form in the gates of a filling element once it is full.
     pub(super) fn future_menisci(&self, element: usize) -> Vec<NewMeniscus> {
-        let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
+        let ahead = self.fronts.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
         ahead
             .map(|(front, curve)| {
                 let into = self.ahead_of(*front);
@@ -84,12 +84,12 @@ impl Dynamic {
 
     /// The element that a meniscus enters.
     pub(super) fn ahead_of(&self, (gate, end): FrontId) -> usize {
-        self.gates[gate].elements[end]
+        self.space.gates[gate].elements[end]
     }
 
     /// The element that a meniscus comes from.
     pub(super) fn origin(&self, (gate, end): FrontId) -> usize {
-        self.gates[gate].elements[1 - end]
+        self.space.gates[gate].elements[1 - end]
     }
 
     /// Processes all events that are due, one after the other; returns whether there was one.
@@ -101,7 +101,7 @@ impl Dynamic {
             // Full elements come first, then the event of the lowest curvature.
             let curvature = |function: &EventFunction| match function {
                 EventFunction::Own(advance, _) | EventFunction::Meeting(advance, _) => {
-                    self.advances[*advance].curvature
+                    self.fronts.advances[*advance].curvature
                 }
                 _ => f64::NEG_INFINITY,
             };
@@ -123,11 +123,11 @@ impl Dynamic {
 
     /// Records an event of a meniscus at a curvature in 1/m.
     fn note(&mut self, kind: EventKind, front: FrontId, curvature: f64) -> Invasion {
-        let saturation = self.invading_area() / self.pore_area;
+        let saturation = self.invading_area() / self.space.pore_area;
         self.state.history.push(Occurrence {
             time: self.state.time,
             kind,
-            throat: self.gates[front.0].throat,
+            throat: self.space.gates[front.0].throat,
             curvature,
             saturation,
             pressure: self.state.pressure,
@@ -140,7 +140,7 @@ impl Dynamic {
         let waiting: Vec<(FrontId, f64)> = self
             .entering(element)
             .filter_map(|(front, meniscus)| {
-                Some((front, self.curves[front.0][front.1].as_ref()?.curvature(meniscus.area)))
+                Some((front, self.fronts.curves[front.0][front.1].as_ref()?.curvature(meniscus.area)))
             })
             .collect();
         let future_menisci = self
@@ -159,7 +159,7 @@ impl Dynamic {
 
     /// The menisci of an advance enter the elements ahead.
     fn pass(&mut self, index: usize) {
-        let advance = self.advances[index].clone();
+        let advance = self.fronts.advances[index].clone();
         let (front, partner) = advance.fronts;
         let invasion = self.note(advance.kind, front, advance.curvature);
         let is_joined = advance.fills.len() > 1;
@@ -173,7 +173,7 @@ impl Dynamic {
     }
 
     pub(super) fn begin_filling(&mut self, element: usize, event: f64, is_joined: bool) {
-        self.ahead[element] = self.menisci_ahead(element);
+        self.fronts.ahead[element] = self.menisci_ahead(element);
         let curvature = self.body_curvature(element).min(event);
         self.state.filling[element] = Some(Filling { area: 0.0, curvature, is_joined });
         self.graph = None;
@@ -200,7 +200,7 @@ impl Dynamic {
             length += piece.curve.length();
             sum += piece.curve.length() * cos;
         }
-        let radius = self.network.regions[self.displacement.region(element)].radius;
+        let radius = self.space.network.regions[self.displacement.region(element)].radius;
         if length > 0.0 { sum / (length * radius) } else { 0.0 }
     }
 
@@ -209,7 +209,7 @@ impl Dynamic {
         if let (Some(meniscus), Some(filling)) =
             (&mut self.state.menisci[front.0][front.1], &mut self.state.filling[element])
             && !std::mem::replace(&mut meniscus.has_burst, true)
-            && !self.is_outlet[element]
+            && !self.space.is_outlet[element]
         {
             filling.area += meniscus.area;
         }
@@ -229,11 +229,11 @@ impl Dynamic {
         let mut left = self.filled_area(element, &filling) - self.displacement.elements()[element].area;
         for &(gate, end) in self.displacement.gates_of(element) {
             self.state.menisci[gate][end] = None;
-            self.curves[gate][end] = None;
+            self.fronts.curves[gate][end] = None;
         }
         self.finish(element);
         let cut_off = self.trapped();
-        let new: Vec<NewMeniscus> = std::mem::take(&mut self.ahead[element])
+        let new: Vec<NewMeniscus> = std::mem::take(&mut self.fronts.ahead[element])
             .into_iter()
             .filter(|(front, _)| self.displacement.front(*front).is_some())
             .map(|(front, curve)| {
@@ -254,7 +254,7 @@ impl Dynamic {
                 area += std::mem::take(&mut left);
             }
             self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
-            self.curves[front.0][front.1] = Some(curve);
+            self.fronts.curves[front.0][front.1] = Some(curve);
             if self.state.filling[self.ahead_of(front)].as_ref().is_some_and(|filling| filling.is_joined) {
                 self.burst(front);
             }
@@ -269,9 +269,9 @@ impl Dynamic {
         self.displacement.complete(element);
         debug_assert_eq!(self.displacement.phase(element), Phase::Invading);
         let new = self.displacement.new_advances();
-        self.advances.extend(new);
+        self.fronts.advances.extend(new);
         let displacement = &self.displacement;
-        self.advances.retain(|advance| displacement.is_pending(advance));
+        self.fronts.advances.retain(|advance| displacement.is_pending(advance));
     }
 }
 

@@ -71,7 +71,7 @@ impl Dynamic {
             }
         }
         let mut sources = vec![0.0; graph.nodes];
-        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
+        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.space.terms.drive) {
             sources[inlet] = rate;
         }
         let fills =
@@ -99,7 +99,7 @@ impl Dynamic {
             let is_quick = rate * self.state.last_steps[0] * QUICK > filling_pore.full - filling_pore.area;
             let passes = is_quick && only == Some(element);
             let constant =
-                || CapillaryCurve::constant(filling_pore.curve.curvature(filling_pore.area)).between(&self.terms);
+                || CapillaryCurve::constant(filling_pore.curve.curvature(filling_pore.area)).between(&self.space.terms);
             Some(FillingPore {
                 passes,
                 curve: if passes { Arc::clone(&filling_pore.curve) } else { constant() },
@@ -117,14 +117,14 @@ impl Dynamic {
                     Some((meniscus, reach)) => (meniscus, Arc::clone(&reach.curve)),
                     None => {
                         let waiting = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
-                        (waiting, Arc::clone(self.curves[gate][end].as_ref()?))
+                        (waiting, Arc::clone(self.fronts.curves[gate][end].as_ref()?))
                     }
                 };
                 Some(CapillaryLaw {
                     link: index,
                     area: meniscus.area,
                     start: meniscus.area,
-                    scale: (curve.end().1 - curve.start().1).max(1.0 / self.gates[gate].width),
+                    scale: (curve.end().1 - curve.start().1).max(1.0 / self.space.gates[gate].width),
                     curve,
                     full: None,
                     passes: false,
@@ -154,8 +154,8 @@ impl Dynamic {
         let rate = |&(gate, end): &FrontId| {
             self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
             let own = self.drop_without_rise(&graph.links[graph.link_of[gate]?]).0;
-            let event = self.curves[gate][end].as_ref()?.end().1;
-            Some(self.terms.tension * (event - now).max(0.0) / (own + resistance))
+            let event = self.fronts.curves[gate][end].as_ref()?.end().1;
+            Some(self.space.terms.tension * (event - now).max(0.0) / (own + resistance))
         };
         self.displacement.gates_of(filling_pore.element).iter().filter_map(rate).sum()
     }

@@ -151,10 +151,9 @@ pub enum StepEnd {
     Closed,
 }
 
-/// A dynamic displacement.
+/// The pore space, its fluids and what follows from them before the first step.
 #[derive(Debug, Clone)]
-pub struct Dynamic {
-    displacement: Displacement,
+struct PoreSpace {
     network: Arc<Network>,
     terms: Terms,
     gates: Vec<GateFacts>,
@@ -166,18 +165,32 @@ pub struct Dynamic {
     pore_area: f64,
     /// Initial area in m² of the invading phase.
     first_area: f64,
-    curves: Vec<[Option<Arc<CapillaryCurve>>; 2]>,
-    /// Of filling elements: menisci that may form in their gates once they are full.
-    ahead: Vec<Vec<(FrontId, Arc<CapillaryCurve>)>>,
-    advances: Vec<Advance>,
-    /// Overlaps of menisci that will form when filling elements are full.
-    meetings_to_come: Vec<Advance>,
     /// By element: whether it is open at the outlet and not at the inlet.
     is_outlet: Vec<bool>,
     /// By element: whether it is open at the inlet and was not full initially.
     is_inlet: Vec<bool>,
     /// By gate and end: where menisci touch the outlet.
     reaches: Vec<[Option<Reach>; 2]>,
+}
+
+/// The menisci of the full elements, with their coming events. They follow from the order in which elements became full.
+#[derive(Debug, Clone)]
+struct Fronts {
+    /// By gate and end.
+    curves: Vec<[Option<Arc<CapillaryCurve>>; 2]>,
+    /// Of filling elements: menisci that may form in their gates once they are full.
+    ahead: Vec<Vec<(FrontId, Arc<CapillaryCurve>)>>,
+    advances: Vec<Advance>,
+    /// Overlaps of menisci that will form when filling elements are full.
+    meetings_to_come: Vec<Advance>,
+}
+
+/// A dynamic displacement.
+#[derive(Debug, Clone)]
+pub struct Dynamic {
+    displacement: Displacement,
+    space: PoreSpace,
+    fronts: Fronts,
     state: State,
     graph: Option<Graph>,
 }
@@ -187,50 +200,50 @@ impl Dynamic {
     /// must be in its initial state, without trapping.
     pub fn new(network: Arc<Network>, displacement: Displacement, terms: Terms) -> Self {
         let elements = displacement.elements().len();
-        let gates = displacement.gates();
-        let mut dynamic = Self {
+        let space = PoreSpace {
             openings: displacement.openings(),
             resistances: resistances(&network),
             opening_resistances: opening_resistances(&network),
             pore_area: displacement.elements().iter().map(|element| element.area).sum(),
             first_area: 0.0,
-            curves: vec![const { [None, None] }; gates.len()],
-            ahead: vec![Vec::new(); elements],
-            advances: Vec::new(),
-            meetings_to_come: Vec::new(),
             is_outlet: Vec::new(),
             is_inlet: vec![false; elements],
             reaches: Vec::new(),
-            state: State {
-                menisci: vec![[None; 2]; gates.len()],
-                filling: vec![None; elements],
-                invasions: vec![None; elements],
-                ..State::default()
-            },
-            graph: None,
-            gates,
-            displacement,
+            gates: displacement.gates(),
             network,
             terms,
         };
-        dynamic.is_outlet = dynamic.defending_at(terms.outlet);
-        dynamic.reaches = dynamic.reaches();
+        let fronts = Fronts {
+            curves: vec![const { [None, None] }; space.gates.len()],
+            ahead: vec![Vec::new(); elements],
+            advances: Vec::new(),
+            meetings_to_come: Vec::new(),
+        };
+        let state = State {
+            menisci: vec![[None; 2]; space.gates.len()],
+            filling: vec![None; elements],
+            invasions: vec![None; elements],
+            ..State::default()
+        };
+        let mut dynamic = Self { displacement, space, fronts, state, graph: None };
+        dynamic.space.is_outlet = dynamic.defending_at(terms.outlet);
+        dynamic.space.reaches = dynamic.reaches();
         dynamic.begin();
         dynamic
     }
 
     fn begin(&mut self) {
-        self.advances = self.displacement.new_advances();
+        self.fronts.advances = self.displacement.new_advances();
         for front in self.displacement.waiting().collect::<Vec<_>>() {
             if let Some(curve) = self.rise_of(front) {
                 let area = curve.area(0.0_f64.max(curve.start().1));
                 self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
-                self.curves[front.0][front.1] = Some(curve);
+                self.fronts.curves[front.0][front.1] = Some(curve);
             }
         }
         let invaded = (0..self.state.filling.len()).filter(|&e| self.is_invaded(e)).collect::<Vec<_>>();
-        self.first_area = self.invading_area();
-        let displaced = self.first_area / self.pore_area;
+        self.space.first_area = self.invading_area();
+        let displaced = self.space.first_area / self.space.pore_area;
         invaded.into_iter().for_each(|element| {
             self.state.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         });
@@ -243,7 +256,7 @@ impl Dynamic {
     fn restore(&mut self, state: State) -> Result<(), String> {
         let elements = self.state.filling.len();
         let counts = [
-            state.menisci.len() == self.gates.len(),
+            state.menisci.len() == self.space.gates.len(),
             state.filling.len() == elements,
             state.invasions.len() == elements,
         ];
@@ -253,10 +266,10 @@ impl Dynamic {
         state.completed.iter().for_each(|&element| self.finish(element));
         self.state = state;
         for (gate, end) in self.displacement.waiting().collect::<Vec<_>>() {
-            self.curves[gate][end] = self.rise_of((gate, end));
+            self.fronts.curves[gate][end] = self.rise_of((gate, end));
         }
         for element in (0..elements).filter(|&element| self.state.filling[element].is_some()).collect::<Vec<_>>() {
-            self.ahead[element] = self.menisci_ahead(element);
+            self.fronts.ahead[element] = self.menisci_ahead(element);
         }
         self.graph = None;
         Ok(())
@@ -268,7 +281,7 @@ impl Dynamic {
     }
 
     fn curve(&self, front: FrontId, passage: &Passage, own: f64) -> Option<Arc<CapillaryCurve>> {
-        Some(CapillaryCurve::new(passage, own, self.gates[front.0].width)?.between(&self.terms))
+        Some(CapillaryCurve::new(passage, own, self.space.gates[front.0].width)?.between(&self.space.terms))
     }
 
     /// Elements, gates, and phases of full elements.
@@ -278,7 +291,7 @@ impl Dynamic {
 
     /// Fluids and drive.
     pub(crate) fn terms(&self) -> &Terms {
-        &self.terms
+        &self.space.terms
     }
 
     /// The time in s.
@@ -303,12 +316,12 @@ impl Dynamic {
 
     /// Initial saturation of the invading phase.
     pub(crate) fn first_saturation(&self) -> f64 {
-        self.first_area / self.pore_area
+        self.space.first_area / self.space.pore_area
     }
 
     /// Area of all pores in m².
     pub fn pore_area(&self) -> f64 {
-        self.pore_area
+        self.space.pore_area
     }
 
     fn is_invaded(&self, element: usize) -> bool {
@@ -344,7 +357,7 @@ impl Dynamic {
         let full: f64 = elements.filter(|(index, _)| self.is_invaded(*index)).map(|(_, element)| element.area).sum();
         let filling: f64 = self.state.filling.iter().flatten().map(|filling| filling.area).sum();
         let menisci = self.state.menisci.iter().flatten().flatten().filter(|meniscus| !meniscus.has_burst);
-        let outlet: f64 = (0..self.is_outlet.len()).map(|element| self.passed_in_outlet(element)).sum();
+        let outlet: f64 = (0..self.space.is_outlet.len()).map(|element| self.passed_in_outlet(element)).sum();
         full + filling + menisci.map(|meniscus| meniscus.area).sum::<f64>() + outlet + self.state.excess
     }
 
@@ -352,7 +365,7 @@ impl Dynamic {
     pub fn balance_error(&self) -> f64 {
         let [inflow, outflow, _] = self.state.passed;
         let area = self.invading_area();
-        (area - self.first_area - (inflow - outflow)) / area.abs().max(f64::MIN_POSITIVE)
+        (area - self.space.first_area - (inflow - outflow)) / area.abs().max(f64::MIN_POSITIVE)
     }
 
     /// The menisci, each a polyline in m.
@@ -365,7 +378,7 @@ impl Dynamic {
     fn arcs(&self) -> impl Iterator<Item = crate::interface::menisci::Meniscus> + '_ {
         self.displacement.waiting().filter_map(|front| {
             let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
-            let curve = self.curves[front.0][front.1].as_ref()?;
+            let curve = self.fronts.curves[front.0][front.1].as_ref()?;
             let (passage, own) = self.displacement.front(front)?;
             passage.at(curve.curvature(meniscus.area).min(own))
         })
@@ -381,13 +394,13 @@ impl Dynamic {
         let is_invaded = |element: usize| self.is_invaded(element) || full == Some(element);
         let count = self.state.filling.len();
         let mut flows = vec![false; count];
-        let mut open: Vec<usize> = (0..count).filter(|&element| self.is_outlet[element]).collect();
+        let mut open: Vec<usize> = (0..count).filter(|&element| self.space.is_outlet[element]).collect();
         while let Some(element) = open.pop() {
             if is_invaded(element) || std::mem::replace(&mut flows[element], true) {
                 continue;
             }
             open.extend(
-                self.displacement.gates_of(element).iter().map(|&(gate, end)| self.gates[gate].elements[1 - end]),
+                self.displacement.gates_of(element).iter().map(|&(gate, end)| self.space.gates[gate].elements[1 - end]),
             );
         }
         (0..count).map(|element| !is_invaded(element) && !flows[element]).collect()

@@ -18,12 +18,12 @@ pub(crate) struct DynamicModel {
 impl DynamicModel {
     /// Pore volumes injected.
     pub(crate) fn injected(&self) -> f64 {
-        self.dynamic.state.passed[0] / self.dynamic.pore_area
+        self.dynamic.state.passed[0] / self.dynamic.space.pore_area
     }
 
     /// Saturation of the invading phase.
     pub(crate) fn saturation(&self) -> f64 {
-        self.dynamic.invading_area() / self.dynamic.pore_area
+        self.dynamic.invading_area() / self.dynamic.space.pore_area
     }
 
     /// Saturation of the wetting phase.

@@ -14,8 +14,8 @@ impl Dynamic {
     /// Whether each element holds the defending phase and is open at given sides.
     pub(super) fn defending_at(&self, sides: [bool; 4]) -> Vec<bool> {
         let mut found = vec![false; self.displacement.elements().len()];
-        for &(opening, element) in &self.openings {
-            found[element] |= sides[self.network.openings[opening].side] && !self.is_invaded(element);
+        for &(opening, element) in &self.space.openings {
+            found[element] |= sides[self.space.network.openings[opening].side] && !self.is_invaded(element);
         }
         found
     }
@@ -23,10 +23,11 @@ impl Dynamic {
     /// By gate and end, for gates into elements that are open at the outlet and not at the inlet.
     pub(super) fn reaches(&self) -> Vec<[Option<Reach>; 2]> {
         let of = |gate: usize| {
-            [0, 1]
-                .map(|end| if self.is_outlet[self.gates[gate].elements[end]] { self.reach((gate, end)) } else { None })
+            [0, 1].map(|end| {
+                if self.space.is_outlet[self.space.gates[gate].elements[end]] { self.reach((gate, end)) } else { None }
+            })
         };
-        (0..self.gates.len()).map(of).collect()
+        (0..self.space.gates.len()).map(of).collect()
     }
 
     fn reach(&self, front: FrontId) -> Option<Reach> {
@@ -34,24 +35,24 @@ impl Dynamic {
         let (passage, own) = self.displacement.future_front(front);
         let event = self.curve(front, &passage, own)?.end().0;
         let lines =
-            self.openings.iter().filter(|(_, at)| *at == element).filter_map(|(opening, _)| self.side(*opening));
+            self.space.openings.iter().filter(|(_, at)| *at == element).filter_map(|(opening, _)| self.side(*opening));
         let touches =
             lines.filter_map(|line| passage.reach(&line)).map(|found| (passage.swept_area(&found), found.curvature));
         let (area, curvature) = touches.min_by(|a, b| a.0.total_cmp(&b.0))?;
         // The swept area never exceeds that of the element.
         let most = self.displacement.elements()[element].area.max(event);
-        let curve = CapillaryCurve::level([event, event + most], curvature.min(own), self.gates[front.0].width);
-        Some(Reach { area, curve: curve.between(&self.terms) })
+        let curve = CapillaryCurve::level([event, event + most], curvature.min(own), self.space.gates[front.0].width);
+        Some(Reach { area, curve: curve.between(&self.space.terms) })
     }
 
     /// An opening of the outlet as a line with the pore on its right.
     fn side(&self, opening: usize) -> Option<Curve> {
-        let opening = &self.network.openings[opening];
+        let opening = &self.space.network.openings[opening];
         let [a, b] = opening.ends;
         let mut inwards = Vec2::zeros();
         inwards[opening.side / 2] = if opening.side.is_multiple_of(2) { 1.0 } else { -1.0 };
         let is_forward = (b - a).dot(&perpendicular(inwards)) > 0.0;
-        self.terms.outlet[opening.side].then_some(if is_forward {
+        self.space.terms.outlet[opening.side].then_some(if is_forward {
             Curve::Segment { a, b }
         } else {
             Curve::Segment { a: b, b: a }
@@ -61,19 +62,19 @@ impl Dynamic {
     /// A meniscus past its event that has not yet touched the outlet, with its capillary curve.
     pub(super) fn approaching_outlet(&self, (gate, end): FrontId) -> Option<(Meniscus, &Reach)> {
         let meniscus = self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst && !meniscus.has_left)?;
-        Some((meniscus, self.reaches[gate][end].as_ref()?))
+        Some((meniscus, self.space.reaches[gate][end].as_ref()?))
     }
 
     /// All menisci past their events that have not yet touched the outlet.
     pub(super) fn all_approaching_outlet(&self) -> Vec<FrontId> {
-        let gates = (0..self.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]);
+        let gates = (0..self.space.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]);
         gates.filter(|&front| self.approaching_outlet(front).is_some()).collect()
     }
 
     /// Area in m² left until a meniscus touches the outlet or the element is full, with areas by front.
     pub(super) fn remaining_to_outlet(&self, front: FrontId, area: impl Fn(FrontId) -> f64) -> f64 {
         let element = self.ahead_of(front);
-        let reach = self.reaches[front.0][front.1].as_ref().map_or(0.0, |reach| reach.area);
+        let reach = self.space.reaches[front.0][front.1].as_ref().map_or(0.0, |reach| reach.area);
         let room = self.displacement.elements()[element].area - self.in_outlet(element, &area);
         room.min(reach - area(front))
     }
@@ -86,7 +87,7 @@ impl Dynamic {
 
     /// Area in m² of menisci past their events in an element at the outlet.
     pub(super) fn passed_in_outlet(&self, element: usize) -> f64 {
-        if !self.is_outlet[element] {
+        if !self.space.is_outlet[element] {
             return 0.0;
         }
         let menisci =
@@ -103,7 +104,7 @@ impl Dynamic {
         if self.state.breakthrough.is_none() {
             self.state.breakthrough = Some(Breakthrough {
                 time: self.state.time,
-                saturation: self.invading_area() / self.pore_area,
+                saturation: self.invading_area() / self.space.pore_area,
                 pressure: self.state.pressure,
             });
         }
@@ -115,10 +116,11 @@ impl Dynamic {
     /// # Errors
     /// Their share of the pore space if it is less than `share`.
     pub fn beginning_with(mut self, share: f64) -> Result<Self, f64> {
-        self.is_inlet = self.defending_at(self.terms.inlet);
-        let elements: Vec<usize> = (0..self.is_inlet.len()).filter(|&element| self.is_inlet[element]).collect();
+        self.space.is_inlet = self.defending_at(self.space.terms.inlet);
+        let elements: Vec<usize> =
+            (0..self.space.is_inlet.len()).filter(|&element| self.space.is_inlet[element]).collect();
         let area_of = |element: usize| self.displacement.elements()[element].area;
-        let most = elements.iter().map(|&element| area_of(element)).sum::<f64>() / self.pore_area;
+        let most = elements.iter().map(|&element| area_of(element)).sum::<f64>() / self.space.pore_area;
         // NaN if no pore is open.
         if !(share <= most) {
             return Err(most);
@@ -130,9 +132,9 @@ impl Dynamic {
             if let Some(filling) = &mut self.state.filling[element] {
                 filling.area = area;
             }
-            self.is_outlet[element] = false;
+            self.space.is_outlet[element] = false;
         }
-        self.first_area = self.invading_area();
+        self.space.first_area = self.invading_area();
         for element in elements {
             self.state.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced: share });
         }

@@ -102,7 +102,7 @@ impl Dynamic {
 
     /// The area in m² of a law at the end of a step of the length `dt` in s, in equilibrium with a pressure drop in Pa.
     fn equilibrium_area(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
-        let (law, tension) = (&known.laws[law], self.terms.tension);
+        let (law, tension) = (&known.laws[law], self.space.terms.tension);
         law.curve.balanced_area(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
     }
 
@@ -158,7 +158,7 @@ impl Dynamic {
         let flow = factored.solve(&jumps, &known.sources)?;
         let mut changes = vec![0.0; jumps.len()];
         for (law, &about) in known.laws.iter().zip(about) {
-            changes[law.link] = -self.terms.tension * law.curve.resistance(about).1 * flow.through[law.link];
+            changes[law.link] = -self.space.terms.tension * law.curve.resistance(about).1 * flow.through[law.link];
         }
         let rates = factored.solve(&changes, &vec![0.0; graph.nodes])?;
         // With a stiff capillary law the drop is inaccurate from flows, with a small resistance from pressures.
@@ -211,7 +211,7 @@ impl Dynamic {
         dt: f64,
         longest: f64,
     ) -> Result<Option<Trial>, FlowError> {
-        let tension = self.terms.tension;
+        let tension = self.space.terms.tension;
         let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
         let matches = |(index, law): (usize, &CapillaryLaw)| {
             let curvature = law.curve.resistance(area(index)).0;

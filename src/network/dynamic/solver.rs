@@ -103,7 +103,9 @@ impl Solver for DynamicSolver {
         // Not past the volume to be injected.
         let left = self.stop.injected.map_or(f64::INFINITY, |end| end - self.model.injected());
         let until = match self.model.dynamic.terms().drive {
-            Drive::Rate(rate) if left.is_finite() => until.min(before + left * self.model.dynamic.pore_area / rate),
+            Drive::Rate(rate) if left.is_finite() => {
+                until.min(before + left * self.model.dynamic.space.pore_area / rate)
+            }
             _ => until,
         };
         let ended = self.model.dynamic.advance(until).map_err(|error| self.failed(error));

@@ -73,18 +73,18 @@ impl Dynamic {
         if let Some(graph) = self.graph.take() {
             return Ok(graph);
         }
-        self.meetings_to_come = self.find_future_meetings();
+        self.fronts.meetings_to_come = self.find_future_meetings();
         self.graph()
     }
 
     /// Longest step in s.
     fn longest_step(&self) -> f64 {
-        let flow = match self.terms.drive {
+        let flow = match self.space.terms.drive {
             Drive::Rate(rate) => rate,
             Drive::PressureDrop(_) => self.state.inflow.abs(),
         };
         let element = LONGEST / self.state.filling.len() as f64;
-        let longest = self.terms.largest_step.min(element) * self.pore_area / flow;
+        let longest = self.space.terms.largest_step.min(element) * self.space.pore_area / flow;
         if longest.is_finite() { longest } else { f64::INFINITY }
     }
 
@@ -92,10 +92,10 @@ impl Dynamic {
     pub(super) fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
-        let drop = match (link.kind, self.terms.drive) {
+        let drop = match (link.kind, self.space.terms.drive) {
             (LinkKind::Inlet, Drive::PressureDrop(pressure)) => pressure,
             // Beyond the outlet the depth is the same, and menisci are flat in the plane.
-            (LinkKind::Outlet, _) if self.is_invaded(a) => self.terms.tension * self.terms.with_depth(0.0),
+            (LinkKind::Outlet, _) if self.is_invaded(a) => self.space.terms.tension * self.space.terms.with_depth(0.0),
             _ => 0.0,
         };
         (resistance, drop)
@@ -103,7 +103,7 @@ impl Dynamic {
 
     /// Conductances in m²/(Pa s) and jumps in Pa of the links in a step of the length `dt` in s, capillary laws linearized about areas in m².
     pub(super) fn conductors(&self, known: &Known, about: &[f64], dt: f64) -> (Vec<f64>, Vec<f64>) {
-        let tension = self.terms.tension;
+        let tension = self.space.terms.tension;
         let mut conductances: Vec<f64> = known.drops.iter().map(|(resistance, _)| 1.0 / resistance).collect();
         let mut jumps: Vec<f64> = known.drops.iter().map(|(_, drop)| -drop).collect();
         for (law, &from) in known.laws.iter().zip(about) {
@@ -176,7 +176,7 @@ impl Dynamic {
     /// The line search between two sets of flows: the fraction of the Newton step that minimizes the work.
     fn least_work(&self, known: &Known, [from, to]: [&[f64]; 2], dt: f64) -> f64 {
         const HALVINGS: usize = 40;
-        let tension = self.terms.tension;
+        let tension = self.space.terms.tension;
         // Derivative of the work: pressure drops along the links times the change of flows.
         let change = |share: f64| {
             let flow = |index: usize| from[index] + share * (to[index] - from[index]);
@@ -268,7 +268,8 @@ impl Dynamic {
                 LinkKind::Inlet => {
                     inflow -= through;
                     let element = link.elements[0];
-                    if let Some(filling) = self.state.filling[element].as_mut().filter(|_| self.is_inlet[element]) {
+                    if let Some(filling) = self.state.filling[element].as_mut().filter(|_| self.space.is_inlet[element])
+                    {
                         filling.area -= through * dt;
                     }
                 }
@@ -279,9 +280,9 @@ impl Dynamic {
                 LinkKind::Meniscus((gate, end)) => {
                     let Some(meniscus) = &mut self.state.menisci[gate][end] else { continue };
                     let ahead = link.elements[1];
-                    if !meniscus.has_burst || (self.is_outlet[ahead] && !meniscus.has_left) {
+                    if !meniscus.has_burst || (self.space.is_outlet[ahead] && !meniscus.has_left) {
                         meniscus.area += through * dt;
-                    } else if self.is_outlet[ahead] {
+                    } else if self.space.is_outlet[ahead] {
                         self.state.passed[1] += through * dt;
                         self.state.passed[2] -= through * dt;
                     } else if let Some(filling) = &mut self.state.filling[ahead] {
@@ -292,7 +293,7 @@ impl Dynamic {
         }
         self.state.passed[0] += inflow * dt;
         self.state.inflow = inflow;
-        self.state.pressure = match (self.terms.drive, graph.inlet) {
+        self.state.pressure = match (self.space.terms.drive, graph.inlet) {
             (Drive::PressureDrop(pressure), _) => pressure,
             (Drive::Rate(_), inlet) => inlet.map_or(f64::NAN, |inlet| trial.flow.pressure[inlet]),
         };
