@@ -134,7 +134,7 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
     let farthest = walls.domain.size().norm();
     let begin = x;
     for _ in 0..NEWTON_STEPS {
-        let closest_points = of.map(|wall| closest(walls, of, wall, x));
+        let closest_points = of.map(|(wall, shift)| closest(walls, of, wall, shift, x));
         let d = closest_points.map(|closest| (x - closest).norm());
         if d.contains(&0.0) {
             return None;
@@ -155,18 +155,18 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
             return None;
         }
         if length <= 1e-15 * farthest + 1e-14 * d[0] {
-            let closest_points = of.map(|wall| closest(walls, of, wall, x));
+            let closest_points = of.map(|(wall, shift)| closest(walls, of, wall, shift, x));
             return Some((x, closest_points));
         }
     }
-    let closest_points = of.map(|wall| closest(walls, of, wall, x));
+    let closest_points = of.map(|(wall, shift)| closest(walls, of, wall, shift, x));
     let d = closest_points.map(|closest| (x - closest).norm());
     let spread = d.iter().fold(0.0_f64, |most, other| most.max((other - d[0]).abs()));
     (spread <= slack(walls, d[0])).then_some((x, closest_points))
 }
 
 /// The nearest point of a piece or of the previous one, which shares its first vertex, unless that is one of the three itself.
-fn closest(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
+fn closest(walls: &Walls, of: &[(usize, Shift); 3], wall: usize, shift: Shift, x: Vec2) -> Vec2 {
     let curve = walls.curve(wall, shift);
     let closest = curve.project(x);
     let before = walls.walls[wall].before.map(|before| (before.wall, plus(shift, before.shift)));

@@ -49,8 +49,8 @@ pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) 
     let (out_of, old_slot) = sides.crossings[1 - to];
     // From the frame of the loop behind to that of the loop ahead.
     let shift = if to == 1 { sides.shift } else { -sides.shift };
-    let ahead = ends(mesh, (into, slot), centers[mesh.region_of[into]]);
-    let behind = ends(mesh, (out_of, old_slot), centers[mesh.region_of[out_of]]);
+    let ahead = ends(mesh, into, slot, centers[mesh.region_of[into]]);
+    let behind = ends(mesh, out_of, old_slot, centers[mesh.region_of[out_of]]);
     let moved = |parts: Vec<WallPiece>| parts.into_iter().map(|part| part.shifted(shift)).collect::<Vec<_>>();
     // The wall that leads to the chord on one side continues after the chord on the other side.
     let left = Sides { behind: moved(behind.before.parts), ahead: ahead.after.parts };
@@ -74,7 +74,7 @@ struct Ends {
     others: Vec<WallPiece>,
 }
 
-fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
+fn ends(mesh: &Mesh, index: usize, slot: usize, center: Vec2) -> Ends {
     let part = &mesh.loops[index];
     let count = part.walls.len();
     let next = (slot + 1) % count;

@@ -165,7 +165,7 @@ impl Loops {
                 }
             };
             is_first = false;
-            self.go(walls, (wall, shift), u, next, &mut steps);
+            self.go(walls, wall, shift, u, next, &mut steps);
         };
         self.loops.push(Loop { steps, winding });
     }
@@ -181,7 +181,7 @@ impl Loops {
     }
 
     /// Adds the stretch from `u` to the next chord end or the end of the wall.
-    fn go(&self, walls: &Walls, (wall, shift): (usize, Shift), u: f64, next: Option<usize>, steps: &mut Vec<Step>) {
+    fn go(&self, walls: &Walls, wall: usize, shift: Shift, u: f64, next: Option<usize>, steps: &mut Vec<Step>) {
         let mut to = next.map_or(1.0, |k| self.ends[wall][k].contact.u);
         if walls.walls[wall].curve.is_closed() && to <= u && next.is_some() {
             to += 1.0;
