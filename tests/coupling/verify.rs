@@ -6,7 +6,7 @@ use meniscus::case::load;
 use meniscus::input::Overrides;
 use meniscus::math::Vec2;
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Trapping};
+use meniscus::network::displacement::{Conditions, Displacement};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
@@ -56,16 +56,7 @@ fn own_throat(subdomain: &Subdomain) -> (f64, f64) {
     };
     let middle = (0..network.throats.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
     let pores = Pores::merged(&network, 1.0);
-    let conditions = Conditions {
-        angle: vec![subdomain.angle; subdomain.geometry.shapes.len() + 4],
-        inlet: [false; 4],
-        outlet: [false; 4],
-        trapping: Trapping::None,
-        events: Events::All,
-        largest_curvature: f64::INFINITY,
-        measured: Vec::new(),
-        films: CornerFilms::Absent,
-    };
+    let conditions = Conditions::new(vec![subdomain.angle; subdomain.geometry.shapes.len() + 4]);
     let displacement = Displacement::new(&network, &pores, conditions);
     let burst = |to| displacement.passage_through(middle, to).unwrap().0.burst().unwrap().curvature;
     assert!(conductances(&network)[middle] > 0.0);

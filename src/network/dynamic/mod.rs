@@ -47,98 +47,23 @@ mod model;
 mod open;
 mod path;
 pub(crate) mod solver;
+mod state;
 mod step;
 mod terms;
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use self::capillary_curve::{CapillaryCurve, Reach};
 use self::graph::Graph;
+pub use self::state::{Breakthrough, Occurrence};
+use self::state::{Filling, Meniscus, State};
 pub use self::terms::Terms;
 use super::conductance::{opening_resistances, resistances};
 use super::cycles::Invasion;
-use super::displacement::{Advance, Displacement, EventKind, FrontId, GateFacts, Phase};
+use super::displacement::{Advance, Displacement, FrontId, GateFacts, Phase};
 use super::graph::Network;
 pub use crate::case::network::Drive;
 use crate::interface::menisci::Passage;
-
-/// A meniscus in a gate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Meniscus {
-    /// Area in m² swept since the chord of the gate.
-    area: f64,
-    /// Whether it has passed its event; its area then belongs to the element ahead, except at the outlet.
-    has_burst: bool,
-    /// Whether it has touched the outlet: further inflow leaves.
-    has_left: bool,
-}
-
-/// An element that is being filled.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Filling {
-    /// Area in m² that entered through menisci past their events.
-    area: f64,
-    /// Curvature in 1/m of the invading phase in it.
-    curvature: f64,
-    /// Whether it lies between two menisci that have merged around a grain.
-    is_joined: bool,
-}
-
-/// An event.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Occurrence {
-    /// Time in s.
-    pub time: f64,
-    /// Its type.
-    pub kind: EventKind,
-    /// Index in the network of the throat that was passed.
-    pub throat: Option<usize>,
-    /// Curvature of the meniscus in 1/m, positive if it bulges into the defending phase.
-    pub curvature: f64,
-    /// Saturation of the invading phase.
-    pub saturation: f64,
-    /// Pressure at the inlet less that at the outlet in Pa.
-    pub pressure: f64,
-}
-
-/// Breakthrough of the invading phase at the outlet.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Breakthrough {
-    /// Time in s.
-    pub time: f64,
-    /// Saturation of the invading phase.
-    pub saturation: f64,
-    /// Pressure at the inlet less that at the outlet in Pa.
-    pub pressure: f64,
-}
-
-/// The state that checkpoints store.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-struct State {
-    time: f64,
-    steps: u64,
-    /// By gate and end.
-    menisci: Vec<[Option<Meniscus>; 2]>,
-    /// By element.
-    filling: Vec<Option<Filling>>,
-    /// Elements in the order in which they became full.
-    completed: Vec<usize>,
-    /// Area in m² of the invading phase in excess of full elements and their menisci.
-    excess: f64,
-    /// Cumulative areas in m²: inflow of the invading phase, outflow of the invading and of the defending phase.
-    passed: [f64; 3],
-    history: Vec<Occurrence>,
-    invasions: Vec<Option<Invasion>>,
-    breakthrough: Option<Breakthrough>,
-    /// Pressure at the inlet less that at the outlet in Pa, and flow into the inlet in m²/s, in the last step.
-    pressure: f64,
-    inflow: f64,
-    /// Lengths in s of the last steps that ended at an event of a meniscus and at a full element.
-    last_steps: [f64; 2],
-    solves: u64,
-}
 
 /// How a step ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
