@@ -1,9 +1,9 @@
-"""Checks an output folder against the output contract.
+"""Checks output folders against the output contract.
 
 Every file opens, arrays are present with the right sizes and finite, times ascend and are unique, and each collection
 lists the files that lie in its folder, no more and no fewer.
 
-Usage: check_output.py DIR
+Usage: check_output.py DIR ...
 """
 
 import argparse
@@ -29,12 +29,11 @@ def measure(path: str | Path) -> dict:
         return measure_network(directory, problems)
     film = results.is_film(directory)
     arrays = results.FILM_PARTICLE_ARRAYS if film else results.PARTICLE_ARRAYS
-    columns = results.FILM_SERIES_COLUMNS if film else results.SERIES_COLUMNS
     found = {
         "problems": problems,
         "times": check_collection(directory, "particles", functools.partial(check_particles, arrays), problems),
         "interface-times": check_collection(directory, "interface", check_interface, problems),
-        "records": check_series(directory / "series.csv", columns, problems),
+        "records": check_series(directory / "series.csv", results.series_columns(directory), problems),
         "status": check_report(directory, problems),
     }
     if not film:
@@ -56,7 +55,7 @@ def measure_network(directory: Path, problems: list[str]) -> dict:
     found = {
         "problems": problems,
         "times": check_collection(directory, "regions", check_regions, problems),
-        "records": check_series(directory / "series.csv", results.NETWORK_SERIES_COLUMNS, problems),
+        "records": check_series(directory / "series.csv", results.series_columns(directory), problems),
         "status": check_report(directory, problems),
     }
     problems.extend(f"{name} is missing" for name in results.NETWORK_FILES if not (directory / name).is_file())
@@ -190,15 +189,20 @@ def check_report(directory: Path, problems: list[str]) -> str | None:
 
 
 def main() -> int:
-    """Prints what is wrong; exit code 1 where something is."""
-    parser = argparse.ArgumentParser(description="check an output folder against the output contract")
-    parser.add_argument("directory", type=Path, help="output folder of `meniscus run`")
-    found = measure(parser.parse_args().directory)
-    for problem in found["problems"]:
-        print(problem)
-    if not found["problems"]:
-        print(f"{len(found['times'])} times and {found['records']} records, all as the contract says")
-    return 1 if found["problems"] else 0
+    """Prints what is wrong, with the folder where there are several; exit code 1 where something is."""
+    parser = argparse.ArgumentParser(description="check output folders against the output contract")
+    parser.add_argument("directory", type=Path, nargs="+", help="output folder of `meniscus run`")
+    directories = parser.parse_args().directory
+    wrong = False
+    for directory in directories:
+        found = measure(directory)
+        whose = f"{directory}: " if len(directories) > 1 else ""
+        for problem in found["problems"]:
+            print(f"{whose}{problem}")
+        if not found["problems"]:
+            print(f"{whose}{len(found['times'])} times and {found['records']} records, all as the contract says")
+        wrong |= bool(found["problems"])
+    return 1 if wrong else 0
 
 
 if __name__ == "__main__":

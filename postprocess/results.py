@@ -60,6 +60,8 @@ FILM_SERIES_COLUMNS = [
     "energy_J_per_m",
     "max_speed_m_per_s",
 ]
+# A film around an axis has these in place of values per meter.
+AROUND_AXIS = {"area_m2": "volume_m3", "energy_J_per_m": "energy_J"}
 # Of networks: regions as polygons with arrays on cells, and columns of a displacement.
 REGION_ARRAYS = {
     "pore": 1,
@@ -81,6 +83,24 @@ NETWORK_SERIES_COLUMNS = [
     "touches",
     "overlaps",
 ]
+# The same of a displacement in time, and what it has in place of that where there is a depth.
+DYNAMIC_SERIES_COLUMNS = [
+    "time_s",
+    "step",
+    "injected_pore_volumes",
+    "saturation",
+    "pressure_difference_Pa",
+    "inflow_m2_per_s",
+    "capillary_number",
+    "interface_length_m",
+    "finger_width_m",
+    "fingers",
+    "invaded_pores",
+    "bursts",
+    "touches",
+    "overlaps",
+]
+WITH_DEPTH = {"inflow_m2_per_s": "inflow_m3_per_s"}
 NETWORK_FILES = ["pores.csv", "throats.csv", "openpnm.csv", "network.json", "pores.vtu", "throats.vtu"]
 UNITS = {
     "velocity": "m/s",
@@ -139,6 +159,21 @@ def is_film(directory: Path) -> bool:
 def is_network(directory: Path) -> bool:
     """Whether the folder is that of a pore network; one without a report is taken for a flow."""
     return "network" in models(directory)
+
+
+def series_columns(directory: Path) -> list[str]:
+    """The columns that the series of a run has."""
+    if is_network(directory):
+        displacement = models(directory)["network"].get("displacement") or {}
+        if not displacement.get("dynamic"):
+            return NETWORK_SERIES_COLUMNS
+        others = WITH_DEPTH if report(directory)["case"].get("depth") else {}
+        return [others.get(name, name) for name in DYNAMIC_SERIES_COLUMNS]
+    if not is_film(directory):
+        return SERIES_COLUMNS
+    if models(directory)["thin-film"].get("symmetry") == "axis":
+        return [AROUND_AXIS.get(name, name) for name in FILM_SERIES_COLUMNS]
+    return FILM_SERIES_COLUMNS
 
 
 def models(directory: Path) -> dict:

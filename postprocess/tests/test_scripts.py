@@ -63,6 +63,16 @@ class Scripts(unittest.TestCase):
         self.assertEqual(found["times"], synthetic.TIMES)
         self.assertEqual(self.run_script("check_output.py").returncode, 0)
 
+    def test_of_several_folders_the_wrong_one_is_named(self):
+        """One start of the script reads them all."""
+        with tempfile.TemporaryDirectory() as other:
+            synthetic.write(Path(other))
+            (Path(other) / "solid.vtu").unlink()
+            found = self.run_script("check_output.py", other)
+            self.assertEqual(found.returncode, 1)
+            self.assertIn(f"{self.directory}: 3 times", found.stdout)
+            self.assertIn(f"{other}: solid.vtu is missing", found.stdout)
+
     def test_a_lost_file_is_found(self):
         """A listed file that is missing."""
         (self.directory / "grid" / "000001.vtu").unlink()
