@@ -27,12 +27,18 @@ except KeyboardInterrupt:
 """
 
 
+def heed_interrupts():
+    """A process that was started in the background ignores them, and so do those that it starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("writes", [False, True])
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot be interrupted alone")
 def test_an_interrupt_stops_a_run_after_its_step(tmp_path, writes):
     out = str(tmp_path / "out") if writes else ""
     script = INTERRUPTED.replace("{changes!r}", repr(LONG))
-    with subprocess.Popen([sys.executable, "-c", script, str(DROP), out], stdout=subprocess.PIPE, text=True) as process:
+    command = [sys.executable, "-c", script, str(DROP), out]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heed_interrupts) as process:
         assert process.stdout.readline() == "stepping\n"
         process.send_signal(signal.SIGINT)
         begun = time.monotonic()

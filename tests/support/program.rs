@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub use super::files::files;
 
@@ -49,16 +51,51 @@ every-time = 1.0e-4 # s
 every-time = 1.5e-4 # s
 "#;
 
-/// The program with `arguments`, to be run in `folder`.
+/// The program with `arguments`, to be run in `folder`. Signals that these tests were told to ignore, as by `nohup` or in the background, do their work.
 pub fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_meniscus"));
+    let program = env!("CARGO_BIN_EXE_meniscus");
+    let mut command = if can_reset_signals() {
+        let mut command = Command::new(ENV);
+        command.args([RESET, program]);
+        command
+    } else {
+        Command::new(program)
+    };
     command.args(arguments).current_dir(folder);
     command
+}
+
+/// `env` of coreutils 8.31 or later, which becomes the program that it starts.
+const ENV: &str = "/usr/bin/env";
+const RESET: &str = "--default-signal=HUP,INT,TERM";
+
+fn can_reset_signals() -> bool {
+    static FOUND: LazyLock<bool> =
+        LazyLock::new(|| Command::new(ENV).args([RESET, "true"]).output().is_ok_and(|output| output.status.success()));
+    *FOUND
 }
 
 /// Runs the program with `arguments` in `folder`.
 pub fn meniscus(folder: &Path, arguments: &[&str]) -> Output {
     command(folder, arguments).output().unwrap()
+}
+
+/// Runs the program with a case as first of `arguments`, with twice its spacing or one and a half where the case may be so coarse: what depends on the
+/// kind of a case alone comes sooner. Returns the factor too.
+pub fn meniscus_coarsely(folder: &Path, command: &str, case: &Path, arguments: &[&str]) -> (Output, f64) {
+    let table: toml::Table = std::fs::read_to_string(case).unwrap().parse().unwrap();
+    let spacing = table.get("sph").map(|sph| sph["spacing"].as_float().unwrap());
+    let run = |more: &[&str]| {
+        meniscus(folder, &[&[command, case.to_str().unwrap(), "--threads", "1"], arguments, more].concat())
+    };
+    for factor in [2.0, 1.5] {
+        let Some(spacing) = spacing else { break };
+        let output = run(&[&format!("--set=sph.spacing={:e}", factor * spacing)]);
+        if output.status.code() != Some(3) {
+            return (output, factor);
+        }
+    }
+    (run(&[]), 1.0)
 }
 
 /// Standard output.
@@ -108,4 +145,20 @@ pub fn shipped(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
     files.sort();
     assert!(!files.is_empty(), "no files in {folder}");
     files
+}
+
+/// Does some work with each of `items`, with as many of them at once as there are processors; the first ones begin first.
+pub fn all_at_once<T: Sync>(items: &[T], work: impl Fn(&T) + Sync) {
+    let next = AtomicUsize::new(0);
+    let take = || {
+        while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+            work(item);
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads: Vec<_> = (0..workers.min(items.len())).map(|_| scope.spawn(take)).collect();
+        let ended: Vec<_> = threads.into_iter().map(std::thread::ScopedJoinHandle::join).collect();
+        ended.into_iter().for_each(|ended| ended.unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+    });
 }
