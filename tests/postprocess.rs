@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use support::program::{folder_with_small_case, meniscus};
-use support::python::{interpreter, network_interpreter, root, run};
+use support::python::{interpreter, root, run};
 
 fn script(name: &str) -> Command {
     let mut command = Command::new(interpreter());
@@ -33,7 +33,7 @@ fn the_tables_of_the_validation_pages_are_those_of_stored_results_of_the_present
 
 #[test]
 fn openpnm_and_porespy_find_the_network_of_the_reference_pack() {
-    let mut command = Command::new(network_interpreter());
+    let mut command = Command::new(interpreter());
     command.args(["-m", "unittest", "discover", "-s"]).arg(root().join("postprocess/tests/network"));
     run(&mut command, "the tests of the scripts for networks must pass");
 }
@@ -104,7 +104,7 @@ fn folder_with_drainage() -> tempfile::TempDir {
 }
 
 fn compared(name: &str, folder: &Path) -> String {
-    let mut command = Command::new(network_interpreter());
+    let mut command = Command::new(interpreter());
     let picture = folder.join(name).with_extension("png");
     command.arg(root().join("postprocess").join(name)).arg(folder.join("out")).arg("--picture").arg(&picture);
     let printed = run(&mut command, "the networks must be compared");
@@ -121,7 +121,7 @@ fn a_fresh_network_keeps_the_contract_and_has_the_permeability_of_openpnm() {
     let tables = run(script("reservoir_tables.py").arg(&out), "the saturation functions must be written");
     let has = |line: &str| tables.lines().any(|found| found.starts_with(line));
     assert!(has("SWOF") && has("SGOF") && has("  1.000000   1.00000000   0.00000000"), "{tables}");
-    let mut ratio = Command::new(network_interpreter());
+    let mut ratio = Command::new(interpreter());
     ratio.current_dir(root().join("postprocess")).arg("-c").arg(
         "import sys, network_to_openpnm as n; f = n.measure(sys.argv[1]); print(f['permeability'] / f['permeability_ours'])",
     );

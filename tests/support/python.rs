@@ -10,47 +10,62 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The interpreter of the environment in `target/postprocess-venv`, which is made anew when the requirements change.
+/// What the scripts in `postprocess`, their tests and those of the Python package need, one after the other. That of networks names all that is needed
+/// and goes first: what its packages depend on beside that, a solver of 1 GB, is left out.
+const REQUIREMENTS: [(&str, &[&str]); 3] = [
+    ("postprocess/requirements-network.txt", &["--no-deps"]),
+    ("postprocess/requirements.txt", &[]),
+    ("python/tests/requirements.txt", &[]),
+];
+
+/// The interpreter of the environment in `target/python-venv`, which serves all tests and is made anew when the requirements change.
 ///
 /// Fails the test with what to install where Python 3.11 or later with venv is missing.
 pub fn interpreter() -> PathBuf {
-    environment("postprocess-venv", "postprocess/requirements.txt", &[])
+    environment("python-venv", &REQUIREMENTS)
 }
 
-/// The same with OpenPNM and PoreSpy, in `target/postprocess-network-venv`. Its requirements name all that is needed: what they
-/// depend on beside that, a solver of 1 GB, is left out.
-#[allow(dead_code, reason = "each test binary has its own copy of this module")]
-pub fn network_interpreter() -> PathBuf {
-    environment("postprocess-network-venv", "postprocess/requirements-network.txt", &["--no-deps"])
-}
-
-/// The same with the programs that `benches/peers.rs` compares with, in `target/peers-venv`.
+/// The interpreter of an environment with the programs that `benches/peers.rs` compares with, in `target/peers-venv`.
 #[allow(dead_code, reason = "each test binary has its own copy of this module")]
 pub fn peers_interpreter() -> PathBuf {
-    environment("peers-venv", "benches/peers/requirements.txt", &[])
+    environment("peers-venv", &[("benches/peers/requirements.txt", &[])])
 }
 
-/// The same with the package `meniscus`, in `target/python-venv`: built by `pip install .` from the present source, with the library that these tests link.
+/// [`interpreter`] with the package `meniscus`: built by `pip install .` from the present source, with the library that these tests link.
 #[allow(dead_code, reason = "each test binary has its own copy of this module")]
 pub fn package_interpreter() -> PathBuf {
-    let python = environment("python-venv", "python/tests/requirements.txt", &[]);
+    let python = interpreter();
     // Two tests may come here at once, as above; what was built is installed again in seconds.
     let lock = fs::File::create(root().join("target/python-package.lock")).expect("target is writable");
     lock.lock().expect("the lock of the Python package");
     let mut install = Command::new(&python);
     install
-        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--force-reinstall"])
+        .args([
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--disable-pip-version-check",
+            "--no-deps",
+            "--force-reinstall",
+            "--no-build-isolation",
+        ])
         .arg("--config-settings=build-args=--features as-tested")
         .arg(root());
-    run(&mut install, "the package must be built: is the package index reachable for maturin?");
+    // The backend of the build is started by its name.
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let folders = python.parent().map(Path::to_path_buf).into_iter().chain(std::env::split_paths(&folders));
+    install.env("PATH", std::env::join_paths(folders).expect("a path of folders"));
+    run(&mut install, "the package must be built");
     python
 }
 
-fn environment(name: &str, requirements: &str, options: &[&str]) -> PathBuf {
-    let file = root().join(requirements);
-    let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{requirements}: {error}"));
+/// The interpreter of an environment with what files of requirements name, each installed with options of pip.
+fn environment(name: &str, requirements: &[(&str, &[&str])]) -> PathBuf {
     let mut hasher = DefaultHasher::new();
-    text.hash(&mut hasher);
+    for (file, _) in requirements {
+        fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}")).hash(&mut hasher);
+    }
     let wanted = format!("{:016x}", hasher.finish());
 
     let target = root().join("target");
@@ -74,18 +89,18 @@ fn environment(name: &str, requirements: &str, options: &[&str]) -> PathBuf {
         &mut make,
         "python3 with venv is needed: install it (Debian, Ubuntu: apt install python3 python3-venv), 3.11 or later",
     );
-    let mut install = Command::new(&python);
-    install
-        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
-        .args(options)
-        .arg("--requirement")
-        .arg(&file);
-    run(
-        &mut install,
-        &format!(
-            "the packages of {requirements} could not be installed: is the package index reachable, is Python 3.11 or later?"
-        ),
-    );
+    for (file, options) in requirements {
+        let mut install = Command::new(&python);
+        install
+            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
+            .args(*options)
+            .arg("--requirement")
+            .arg(root().join(file));
+        let advice = format!(
+            "the packages of {file} could not be installed: is the package index reachable, is Python 3.11 or later?"
+        );
+        run(&mut install, &advice);
+    }
     fs::write(&stamp, wanted).expect("the Python environment is writable");
     python
 }
