@@ -1,7 +1,7 @@
 //! Damaged and extreme inputs: each is read and checked, none is run. No panic, bounded memory, bounded time, no refusal without its file and a
 //! place in it, and no result that is no number.
 //!
-//! 2,000 inputs by default; `MENISCUS_FUZZ=1000000 cargo test --release --test hostile_input -- --nocapture` does a million. The inputs follow
+//! 600 inputs by default; `MENISCUS_FUZZ=1000000 cargo test --release --test hostile_input -- --nocapture` does a million. The inputs follow
 //! from their number alone: `MENISCUS_FUZZ_FIRST=4711 MENISCUS_FUZZ=1` does one again. The input at work lies in `target/hostile-input`, so
 //! that one that ends the program is found there. This program has one test, so that its allocator counts one input alone.
 
@@ -57,7 +57,7 @@ fn watch() {
 
 #[test]
 fn no_damaged_or_extreme_input_makes_the_reader_panic_or_take_more_than_its_share() {
-    let (first, count) = (config("MENISCUS_FUZZ_FIRST", 1), config("MENISCUS_FUZZ", 2000));
+    let (first, count) = (config("MENISCUS_FUZZ_FIRST", 1), config("MENISCUS_FUZZ", 600));
     let bench = Bench::new(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target/hostile-input"));
     std::thread::spawn(watch);
     std::panic::set_hook(Box::new(|panic| {

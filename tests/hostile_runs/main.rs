@@ -1,7 +1,7 @@
 //! Cases with changed numbers that pass their check, run for a few steps with all their files: no panic, no hang, no number that is none in any
 //! output, and no more work per step than a bound that is counted. Those that do not pass are refused with their file and a place in it.
 //!
-//! 500 cases by default; `MENISCUS_RUNS=5000 cargo test --release --test hostile_runs -- --nocapture` runs more. The cases follow from their
+//! 150 cases by default; `MENISCUS_RUNS=5000 cargo test --release --test hostile_runs -- --nocapture` runs more. The cases follow from their
 //! number alone: `MENISCUS_RUNS_FIRST=4711 MENISCUS_RUNS=1` runs one again. Those that break a rule stay in `target/hostile-runs`.
 
 #[path = "../hostile_input/mutation.rs"]
@@ -144,7 +144,7 @@ fn work(thread: u64, seeds: &[Seed], (first, count): (u64, u64)) -> Tally {
 
 #[test]
 fn changed_cases_that_pass_their_check_run_without_panic_hang_or_numbers_that_are_none() {
-    let range = (config("MENISCUS_RUNS_FIRST", 1), config("MENISCUS_RUNS", 500));
+    let range = (config("MENISCUS_RUNS_FIRST", 1), config("MENISCUS_RUNS", 150));
     let seeds = seeds::seeds();
     std::thread::spawn(watch);
     let begun = Instant::now();
