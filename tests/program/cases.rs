@@ -1,59 +1,70 @@
 //! Runs of the program on small cases: files, threads, interrupts, failures and messages.
 
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use crate::support::program::{
-    assert_code, assert_same_files, command, folder_with_small_case, meniscus, report, shipped, stderr, stdout,
+    all_at_once, assert_code, assert_same_files, command, folder_with_small_case, meniscus, meniscus_coarsely, report,
+    shipped, stderr, stdout,
 };
 use crate::support::python::{interpreter, root, run};
 
 /// The part of each case that is run: some steps.
-const PART: f64 = 300.0;
+const PART: f64 = 3000.0;
 
 /// Records of the series in a part beside the first: two of each of three flows that follow one another.
 const RECORDS: f64 = 6.0;
 
+/// Frames and saved states in a part beside the first: few, as steps end at them.
+const FRAMES: f64 = 2.0;
+
+/// What of a case is run, as options: a part of its time, with few records.
+fn part(case: &toml::Table) -> Vec<String> {
+    let end = case.get("time").and_then(|time| time.get("end")?.as_float());
+    let Some(end) = end.map(|end| end / PART) else {
+        return vec![format!("--set=output.vtk.every-pore-volume={:e}", 1.0 / FRAMES)];
+    };
+    let every = |table: &str, records: f64| format!("--set=output.{table}.every-time={:e}", end / records);
+    vec![format!("--set=time.end={end:e}"), every("series", RECORDS), every("vtk", FRAMES), every("restart", FRAMES)]
+}
+
 #[test]
-fn every_case_of_the_folder_runs_and_keeps_the_output_contract() {
-    for case in shipped("cases", &["toml"]) {
-        let folder = tempfile::tempdir().unwrap();
-        let text = std::fs::read_to_string(&case).unwrap();
-        let end = text.parse::<toml::Table>().unwrap()["time"]["end"].as_float().unwrap() / PART;
-        let few_records = format!("--set=output.series.every-time={:e}", end / RECORDS);
-        let end = format!("--set=time.end={end:e}");
-        let output = meniscus(folder.path(), &["run", case.to_str().unwrap(), "--out", "out", &end, &few_records]);
+fn every_case_runs_and_its_files_keep_the_output_contract_and_are_the_same_to_all_readers() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases: Vec<PathBuf> =
+        ["cases", "cases/network", "cases/thin-film"].into_iter().flat_map(|part| shipped(part, &["toml"])).collect();
+    let direct = root().join("cases");
+    let out = |case: &PathBuf| {
+        let name = case.strip_prefix(&direct).unwrap().with_extension("");
+        folder.path().join(name.display().to_string().replace(['/', '\\'], "-"))
+    };
+    all_at_once(&cases, |case| {
+        let options = part(&std::fs::read_to_string(case).unwrap().parse().unwrap());
+        let (name, out) = (case.display(), out(case));
+        let options: Vec<&str> = options.iter().map(String::as_str).chain(["--out", out.to_str().unwrap()]).collect();
+        let (output, factor) = meniscus_coarsely(folder.path(), "run", case, &options);
         // A case that is stopped this early may miss what it expects of its end, but nothing else.
         let code = output.status.code();
-        assert!(code == Some(0) || code == Some(5), "{}: {code:?}\n{}", case.display(), stderr(&output));
-        let mut check = Command::new(interpreter());
-        check.arg(root().join("postprocess/check_output.py")).arg(folder.path().join("out"));
-        run(&mut check, &format!("the output of {} must keep the contract", case.display()));
-        assert_same_arrays(&folder.path().join("out"), &case);
-    }
-}
-
-/// All readers must find the same bits in every VTK file of a run.
-fn assert_same_arrays(out: &Path, case: &Path) {
-    let mut compare = Command::new(interpreter());
-    compare.arg(root().join("postprocess/tests/same_arrays.py")).arg(out);
-    run(&mut compare, &format!("pyvista, VTK and meshio must read the same arrays of {}", case.display()));
-}
-
-#[test]
-fn every_network_and_film_has_files_that_all_readers_read() {
-    for case in ["cases/network", "cases/thin-film"].into_iter().flat_map(|folder| shipped(folder, &["toml"])) {
-        let folder = tempfile::tempdir().unwrap();
-        let text = std::fs::read_to_string(&case).unwrap().parse::<toml::Table>().unwrap();
-        let end = text.get("time").and_then(|time| time.get("end")?.as_float());
-        let end = end.map(|end| format!("--set=time.end={:e}", end / PART));
-        let arguments = ["run", case.to_str().unwrap(), "--out", "out"].into_iter().chain(end.as_deref());
-        let output = meniscus(folder.path(), &arguments.collect::<Vec<_>>());
-        let code = output.status.code();
-        assert!(code == Some(0) || code == Some(5), "{}: {code:?}\n{}", case.display(), stderr(&output));
-        assert_same_arrays(&folder.path().join("out"), &case);
-    }
+        assert!(code == Some(0) || code == Some(5), "{name}: {code:?}\n{}", stderr(&output));
+        if case.parent() == Some(&direct) {
+            let particles = report(&out)["solver"]["unknowns"].as_f64().unwrap();
+            assert!((100.0..100_000.0).contains(&(factor * factor * particles)), "{name}: {particles}");
+        }
+    });
+    let folders: Vec<PathBuf> = cases.iter().map(out).collect();
+    assert_eq!(folders.iter().collect::<BTreeSet<_>>().len(), cases.len(), "two cases have one folder");
+    let readers = [
+        ("check_output.py", None, "the output of every case must keep the contract"),
+        ("tests/same_arrays.py", Some("--apart"), "pyvista, VTK and meshio must read the same arrays of every case"),
+    ];
+    all_at_once(&readers, |(script, option, what)| {
+        let mut read = Command::new(interpreter());
+        read.arg(root().join("postprocess").join(script)).args(*option).args(&folders);
+        let told = run(&mut read, what);
+        assert_eq!(told.lines().count(), folders.len(), "{told}");
+    });
 }
 
 #[test]

@@ -139,7 +139,7 @@ fn what_floor_and_lid_leave_out_is_told_before_a_run() {
         stdout(&output)
     };
     let posts = "geometry.shapes=[{disc={center=[1.5e-4,5.0e-4],radius=6e-5}},{disc={center=[8.5e-4,5.0e-4],radius=6e-5}},{disc={center=[1.5e-4,2.5e-4],radius=4e-5}}]";
-    let fine = "sph.spacing=6.25e-6";
+    let fine = "sph.spacing=7.8e-6";
     let hysteresis = "sph.wetting={hysteresis={advancing-angle-deg=70.0,receding-angle-deg=50.0}}";
     let chip = told(&["geometry.depth=1e-4", hysteresis]);
     assert!(chip.contains("[sph.wetting.hysteresis] acts on lines along the walls"), "{chip}");

@@ -18,7 +18,7 @@ use meniscus::run::setup;
 const RUN: [&str; 8] = [
     "run",
     "drop.toml",
-    "--set=time.end=6e-4",
+    "--set=time.end=4e-4",
     "--set=output.series.every-time=1e-5",
     "--set=output.vtk.every-time=2e-5",
     "--set=output.restart.every-time=3e-5",
