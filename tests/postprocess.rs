@@ -44,13 +44,13 @@ fn fresh_output_keeps_the_contract_and_is_drawn() {
     support::program::assert_code(&meniscus(directory.path(), &["run", "drop.toml", "--out", "out"]), 0);
     let out = directory.path().join("out");
     run(script("check_output.py").arg(&out), "the output must keep the contract");
-    for (name, option, file) in [
-        ("field_picture.py", "--picture", "field.png"),
-        ("angle_and_saturation.py", "--picture", "angle.png"),
-        ("movie.py", "--movie", "movie.gif"),
+    for (name, option, file, more) in [
+        ("field_picture.py", "--picture", "field.png", &[][..]),
+        ("angle_and_saturation.py", "--picture", "angle.png", &[]),
+        ("movie.py", "--movie", "movie.gif", &["--size", "320"]),
     ] {
         let target = directory.path().join(file);
-        run(script(name).arg(&out).arg(option).arg(&target), "the figure must be drawn");
+        run(script(name).arg(&out).arg(option).arg(&target).args(more), "the figure must be drawn");
         assert!(target.metadata().is_ok_and(|m| m.len() > 2000), "{file} is empty");
     }
     let printed = run(script("small_pieces.py").arg(&out), "the pieces must be counted");

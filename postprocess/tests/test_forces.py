@@ -1,6 +1,5 @@
 """The arrows of forces and the figure of hysteresis, on small folders. `python -m unittest discover -s tests`."""
 
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,6 +15,7 @@ import force_arrows  # noqa: E402
 import hysteresis  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import started  # noqa: E402
 import synthetic  # noqa: E402
 
 TABLE = """run,liquid,tension,advancing,receding,status,advancing-angle-deg,receding-angle-deg
@@ -23,12 +23,6 @@ a,n-hexane,0.018,50,40,done,51,39
 b,n-octane,0.022,60,50,done,59.5,50.5
 c,n-nonane,0.024,65,55,failed,,
 """
-
-
-def run(script: str, *arguments: str) -> subprocess.CompletedProcess:
-    """Runs a script as a user does."""
-    command = [sys.executable, str(SCRIPTS / script), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 class Forces(unittest.TestCase):
@@ -49,7 +43,7 @@ class Forces(unittest.TestCase):
                 expected = (volume[:, None] * np.asarray(data[name])[fluid][:, :2]).sum(axis=0)
                 np.testing.assert_allclose(total, expected, atol=1e-12)
             picture = Path(temporary) / "forces.png"
-            done = run("force_arrows.py", str(directory), "--picture", str(picture))
+            done = started.run("force_arrows.py", directory, "--picture", picture)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(plt.imread(picture).ndim, 3)
 
@@ -79,11 +73,11 @@ class Hysteresis(unittest.TestCase):
             np.testing.assert_allclose(found["advancing-angle-deg"], [51, 59.5])
             self.assertAlmostEqual(found["slopes"]["receding"], 2500.0)
             picture = directory / "hysteresis.png"
-            done = run("hysteresis.py", str(directory), "--picture", str(picture))
+            done = started.run("hysteresis.py", directory, "--picture", picture)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(plt.imread(picture).ndim, 3)
             (directory / "table.csv").write_text(TABLE.replace("done", "to do"), encoding="utf-8")
-            self.assertNotEqual(run("hysteresis.py", str(directory)).returncode, 0)
+            self.assertNotEqual(started.run("hysteresis.py", directory).returncode, 0)
 
 
 if __name__ == "__main__":

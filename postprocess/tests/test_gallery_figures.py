@@ -1,6 +1,5 @@
 """Figures of the documentation from a study folder made here. `python -m unittest discover -s tests`."""
 
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +11,9 @@ sys.path.insert(0, str(SCRIPTS))
 from matplotlib import pyplot as plt  # noqa: E402
 
 import gallery_figures  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import started  # noqa: E402
 
 TABLE = """run,spacing,status,error,unknowns
 spacing=2,2,done,0.1,100
@@ -48,11 +50,12 @@ class Gallery(unittest.TestCase):
     def test_the_script_writes_curves_and_picture_or_says_that_nothing_is_complete(self):
         """As a user runs it."""
         figures = self.directory.parent / "figures"
-        command = [sys.executable, str(SCRIPTS / "gallery_figures.py"), str(self.directory), "--figures", str(figures)]
-        subprocess.run([*command, "--width", "100"], capture_output=True, text=True, check=True)
+        command = ["gallery_figures.py", self.directory, "--figures", figures]
+        done = started.run(*command, "--width", "100")
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((figures / "rise-1.svg").read_text(encoding="utf-8"), "<svg/>")
         self.assertEqual(plt.imread(figures / "rise-picture.webp").shape[:2], (150, 100))
-        refused = subprocess.run([*command, "--run", "spacing=0.5"], capture_output=True, text=True, check=False)
+        refused = started.run(*command, "--run", "spacing=0.5")
         self.assertEqual(refused.returncode, 1)
         self.assertIn("no complete run spacing=0.5", refused.stderr)
 

@@ -22,6 +22,7 @@ import small_pieces  # noqa: E402
 import spreading  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import started  # noqa: E402
 import synthetic  # noqa: E402
 
 
@@ -53,15 +54,15 @@ class Scripts(unittest.TestCase):
 
     def run_script(self, script: str, *arguments: str) -> subprocess.CompletedProcess:
         """Runs a script as a user does."""
-        command = [sys.executable, str(SCRIPTS / script), str(self.directory), *arguments]
-        return subprocess.run(command, capture_output=True, text=True, check=False)
+        return started.run(script, self.directory, *arguments)
 
     def test_a_whole_folder_passes(self):
         """No problem, and the times are those that were written."""
         found = check_output.measure(self.directory)
         self.assertEqual(found["problems"], [])
         self.assertEqual(found["times"], synthetic.TIMES)
-        self.assertEqual(self.run_script("check_output.py").returncode, 0)
+        command = [sys.executable, str(SCRIPTS / "check_output.py"), str(self.directory)]
+        self.assertEqual(subprocess.run(command, capture_output=True, check=False).returncode, 0)
 
     def test_of_several_folders_the_wrong_one_is_named(self):
         """One start of the script reads them all."""
@@ -163,9 +164,9 @@ class Scripts(unittest.TestCase):
         found = movie.measure(self.directory)
         self.assertEqual(len(found["frames"]), 3)
         self.assertAlmostEqual(found["max"], 0.03 / (4.0 * synthetic.SPACING))
-        self.draws("movie.py", "--movie", "movie.gif")
+        self.draws("movie.py", "--movie", "movie.gif", "--size", "320")
         self.draws("movie.py", "--movie", "movie.mp4")
-        self.draws("movie.py", "--movie", "movie.webp", "--size", "640")
+        self.draws("movie.py", "--movie", "movie.webp", "--size", "320")
 
     def draws(self, script: str, option: str, name: str, *more: str):
         """The script ends well and leaves a file of more than a few bytes."""

@@ -1,6 +1,5 @@
 """The panel of a study, on a small folder made here. `python -m unittest discover -s tests`."""
 
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +11,9 @@ sys.path.insert(0, str(SCRIPTS))
 from matplotlib import pyplot as plt  # noqa: E402
 
 import study_panel  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import started  # noqa: E402
 
 TABLE = """run,angle,spacing,status,contact-angle-deg
 angle=40_spacing=1e-5,40,1e-5,done,41.5
@@ -52,12 +54,13 @@ class Panel(unittest.TestCase):
     def test_the_script_writes_a_figure_or_says_that_nothing_is_complete(self):
         """As a user runs it."""
         picture = self.directory / "panel.png"
-        command = [sys.executable, str(SCRIPTS / "study_panel.py"), str(self.directory), "--picture", str(picture)]
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        command = ["study_panel.py", self.directory, "--picture", picture]
+        done = started.run(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.strip(), str(picture))
         self.assertEqual(plt.imread(picture).ndim, 3)
         (self.directory / "table.csv").write_text(TABLE.replace("done", "to do"), encoding="utf-8")
-        refused = subprocess.run(command, capture_output=True, text=True, check=False)
+        refused = started.run(*command)
         self.assertEqual(refused.returncode, 1)
         self.assertIn("is complete yet", refused.stderr)
 
