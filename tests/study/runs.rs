@@ -4,14 +4,16 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::program::{assert_code, assert_same_files, command, meniscus, report, stderr, stdout};
+use crate::support::program::{
+    all_at_once, assert_code, assert_same_files, command, meniscus, report, shipped, stderr, stdout,
+};
 
 /// A small drop, 24 times: eight angles and three tensions.
 const STUDY: &str = r#"
 format = 1
 title = "Small drops"
 case = "drop.toml"
-set = ["time.end=1.5e-3", "output.series.every-time=1.5e-4", "output.vtk.every-time=7.5e-4"]
+set = ["time.end=7.5e-4", "output.series.every-time=7.5e-5", "output.vtk.every-time=3.75e-4"]
 
 [[axis]]
 key = "sph.wetting.young.contact-angle-deg"
@@ -131,7 +133,7 @@ fn a_study_that_is_killed_five_times_ends_with_the_same_files_as_an_unbroken_one
 #[cfg(unix)]
 #[test]
 fn runs_of_a_study_whose_process_dies_alone_save_their_state_and_end() {
-    let folder = folder_with(&STUDY.replace("time.end=1.5e-3", "time.end=1.5e-2"));
+    let folder = folder_with(&STUDY.replace("time.end=7.5e-4", "time.end=1.5e-2"));
     let out = folder.path().join("out");
     let mut child = start(folder.path(), "out");
     wait_for("a saved state", || {
@@ -154,7 +156,7 @@ fn runs_of_a_study_whose_process_dies_alone_save_their_state_and_end() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_study_leaves_runs_that_can_be_taken_up() {
-    let folder = folder_with(&STUDY.replace("time.end=1.5e-3", "time.end=1.5e-2"));
+    let folder = folder_with(&STUDY.replace("time.end=7.5e-4", "time.end=1.5e-2"));
     let child = start(folder.path(), "out");
     let runs = folder.path().join("out/runs");
     // Its state is saved at time zero; a second row of the series says that it steps.
@@ -210,7 +212,8 @@ values = [[0.0, -1e-3], [404.0, -10.0], [0.0, -2e-3]]
 #[cfg(target_os = "linux")]
 #[test]
 fn a_study_goes_on_after_the_process_of_a_run_is_killed_and_says_which() {
-    let folder = folder_with(&STUDY.replace("[0.01, 0.02, 0.03]", "[0.02]").replace("1.5e-3\"", "6e-3\""));
+    let folder =
+        folder_with(&STUDY.replace("[0.01, 0.02, 0.03]", "[0.02]").replace("time.end=7.5e-4", "time.end=3e-3"));
     let study = start(folder.path(), "out");
     let children = format!("/proc/{0}/task/{0}/children", study.id());
     let state = |run: std::fs::DirEntry| run.path().join("restart/state.bin").exists();
@@ -376,12 +379,13 @@ fn several_studies_run_one_after_the_other_each_into_its_own_folder() {
 #[test]
 fn every_shipped_study_can_be_planned() {
     let folders = ["studies", "studies/thin-film", "studies/validation"];
-    for study in folders.into_iter().flat_map(|folder| crate::support::program::shipped(folder, &["toml"])) {
-        let study = meniscus::study::load::load(&study).unwrap_or_else(|error| panic!("{}", error.render()));
+    let studies: Vec<_> = folders.into_iter().flat_map(|folder| shipped(folder, &["toml"])).collect();
+    all_at_once(&studies, |study| {
+        let study = meniscus::study::load::load(study).unwrap_or_else(|error| panic!("{}", error.render()));
         let runs = meniscus::study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
         // Two where a study holds two methods or two lengths against each other; a single run is a case.
         assert!(runs.len() >= 2, "{}", study.name);
-    }
+    });
 }
 
 #[test]

@@ -251,7 +251,7 @@ distribution = { normal = { mean = 0.0, deviation = 1e-6, at-most = 5e-6 } }
 fn an_interrupted_study_goes_on_with_what_is_done() {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
-    let folder = folder_with(PACK, &UNCERTAIN.replace("count = 64", "count = 2048"));
+    let folder = folder_with(PACK, &UNCERTAIN.replace("count = 64", "count = 512"));
     let mut child = command(folder.path(), &["study", "run", "study.toml", "--out", "broken"])
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -267,7 +267,7 @@ fn an_interrupted_study_goes_on_with_what_is_done() {
     let code = child.wait().unwrap().code();
     assert!(matches!(code, Some(0 | 130)), "{code:?}");
     assert_code(&run(folder.path(), "broken", &[]), 0);
-    assert_eq!(table(&folder.path().join("broken/samples.csv")).len(), 2048);
+    assert_eq!(table(&folder.path().join("broken/samples.csv")).len(), 512);
     let failed = run(folder.path(), "broken", &["--engine", "slurm"]);
     assert_code(&failed, 2);
     assert!(stderr(&failed).contains("set processes = true in [sampling]"), "{}", stderr(&failed));
