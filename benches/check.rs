@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use criterion::Criterion;
-use meniscus::case::load;
-use meniscus::input::Overrides;
 use meniscus::run::setup;
+use meniscus_case::load;
+use meniscus_core::input::Overrides;
 
 /// So many of the slowest cases are told.
 const TOLD: usize = 5;

@@ -9,7 +9,6 @@
 //! whose build did not end within half an hour.
 
 #[path = "../tests/support/python.rs"]
-#[expect(dead_code, reason = "the other environments serve tests")]
 mod python;
 
 use std::path::Path;

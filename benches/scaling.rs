@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use flow::flow;
-use meniscus::sph::flow::{Flow, PARTS};
+use meniscus_sph::flow::{Flow, PARTS};
 use mimalloc::MiMalloc;
 
 /// That of the program.

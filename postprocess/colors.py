@@ -1,4 +1,4 @@
-"""The colors of all pictures, which color-blind eyes keep apart (Okabe and Ito 2008); `src/diagram.rs` has the same."""
+"""The colors of all pictures, which color-blind eyes keep apart (Okabe and Ito 2008); `crates/core/src/diagram.rs` has the same."""
 
 WETTING = "#56b4e9"
 WETTING_TRAPPED = "#0072b2"

@@ -1,52 +1,53 @@
 //! Two-phase flow with partial wetting in pores.
 //!
 //! Data flow of a run: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report. The program `meniscus` does all of it; the types below do
-//! each part separately. SI units; angles in rad, in degrees where a name says so.
+//! each part separately. SI units; angles in rad, in degrees where a name says so. Each part is a package of its own: `meniscus_geometry`,
+//! `meniscus_drawings`, `meniscus_case`, `meniscus_network`, `meniscus_sph`, `meniscus_film` and others, which this one gathers.
 //!
-//! The public interface is selected deliberately; the rest is `pub(crate)`, so that the compiler detects unused items.
+//! # Equations
+//!
+//! Direct simulation (Huber et al. 2013): ∇·v = 0, ρ Dv/Dt = −∇p + ∇·(μ (∇v + ∇vᵀ)) + ρ g + σ κ n + σ (cos θ − cos α) ν δ, with the curvature κ and the gradient n
+//! of the color across the interface, and at a contact line its delta function δ, its normal ν along the wall, the present angle α and that of the wetting law θ.
+//!
+//! Thin film (Pang and Ó Náraigh 2022), scaled: ∂h/∂t = −∂/∂x (h h̄² ∂/∂x (∂²h̄/∂x² + ξ² h̄)), with the smoothed height h̄ and, in partial wetting, ξ² from the energy.
+//!
+//! Pore network: a meniscus advances at p_n − p_w = σ κ until it passes its largest curvature κ in a throat, touches a wall ahead, or meets another one (Cieplak
+//! and Robbins 1990).
+//!
+//! # Examples
+//!
+//! A drop on a floor, step by step (`examples/droplet.rs`):
+//! ```no_run
+#![doc = include_str!("../examples/droplet.rs")]
+//! ```
+//! The drainage of a pack, with the package of networks alone (`crates/network/examples/drainage.rs`):
+//! ```no_run
+#![doc = include_str!("../crates/network/examples/drainage.rs")]
+//! ```
+//! The signed distance from walls (`examples/distance.rs`):
+//! ```no_run
+#![doc = include_str!("../examples/distance.rs")]
+//! ```
+//! A drawing of another program (`examples/drawing.rs`):
+//! ```no_run
+#![doc = include_str!("../examples/drawing.rs")]
+//! ```
+//! A spreading droplet (`examples/film.rs`):
+//! ```no_run
+#![doc = include_str!("../examples/film.rs")]
+//! ```
+//!
+//! The public interface is selected deliberately; the rest of this package is `pub(crate)`, so that the compiler detects unused items.
 #![warn(unreachable_pub)]
-#![allow(rustdoc::private_intra_doc_links, reason = "comments are for readers of the source too")]
 
-#[doc(hidden)]
-pub mod analysis;
-#[doc(hidden)]
-pub mod benchmarks;
-#[doc(hidden)]
-pub mod case;
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
-pub mod diagram;
-#[doc(hidden)]
-pub mod geometry;
-#[doc(hidden)]
-pub mod input;
-#[doc(hidden)]
-pub mod interface;
-#[doc(hidden)]
-pub mod io;
-#[doc(hidden)]
-pub mod math;
-#[doc(hidden)]
-pub mod network;
-#[doc(hidden)]
 pub mod run;
-#[doc(hidden)]
-pub mod snapshot;
-#[doc(hidden)]
-pub mod solver;
-#[doc(hidden)]
-pub mod sph;
 #[doc(hidden)]
 pub mod study;
 #[doc(hidden)]
-pub mod table;
-#[doc(hidden)]
-pub mod thin_film;
-#[doc(hidden)]
 pub mod verify;
-#[doc(hidden)]
-pub mod wetting;
 
 /// A case file, checked, and its solver step by step:
 ///
@@ -60,7 +61,62 @@ pub mod wetting;
 /// assert!(solver.time() == step.dt && step.dt < case.end);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub use case::{Case, Loaded, Model, load, load_default};
+#[doc(inline)]
+pub use meniscus_case::{Case, Loaded, Model, load, load_default};
+/// Mistakes are reported all at once, each with its source location and a remedy:
+///
+/// ```
+/// use meniscus::{InputError, Mistake, Overrides, load_default};
+///
+/// let overrides = Overrides::parse(&["sph.spacing=-1", "sph.interface.tension=\"high\""])?;
+/// let InputError { mistakes } = load_default(&overrides).unwrap_err();
+/// assert_eq!(mistakes.len(), 2);
+/// let is_expected = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
+/// assert!(mistakes.iter().any(is_expected));
+/// # Ok::<(), InputError>(())
+/// ```
+#[doc(inline)]
+pub use meniscus_core::input::{InputError, Mistake, Overrides};
+/// Points and boxes in m:
+///
+/// ```
+/// use meniscus::{Bounds, Vec2};
+///
+/// let bounds = Bounds { min: Vec2::zeros(), max: Vec2::new(2e-3, 1e-3) };
+/// assert!(bounds.contains(Vec2::new(1e-3, 1e-3)) && (bounds.area() - 2e-6).abs() < 1e-18);
+/// ```
+#[doc(inline)]
+pub use meniscus_core::math::{Bounds, Vec2};
+/// The state of a solver for output:
+///
+/// ```
+/// use meniscus::{Field, Overrides, Snapshot, Values, load_default, solver_of};
+///
+/// let solver = solver_of(&load_default(&Overrides::parse(&["sph.spacing=4e-6"])?)?.case)?;
+/// let Snapshot { particles, .. } = solver.snapshot();
+/// let is_pressure = |field: &&Field| field.name == "pressure" && field.unit == "Pa";
+/// let pressure = particles.fields.iter().find(is_pressure).expect("every particle has a pressure");
+/// assert!(matches!(&pressure.values, Values::Scalar(values) if values.len() == particles.points.len()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(inline)]
+pub use meniscus_core::snapshot::{Field, Snapshot, Values};
+/// A solver, independent of its model, and its measures:
+///
+/// ```
+/// use meniscus::{Measure, Overrides, Series, Solver, SolverError, load_default, solver_of};
+///
+/// fn density_error(solver: &mut dyn Solver, end: f64) -> Result<Option<f64>, SolverError> {
+///     solver.step(end)?;
+///     let is_asked_for = |measure: &Measure| measure.name == "density-error";
+///     Ok(solver.measures(&Series::default()).into_iter().find(is_asked_for).map(|measure| measure.value))
+/// }
+/// let case = load_default(&Overrides::parse(&["sph.spacing=4e-6"])?)?.case;
+/// assert!(density_error(solver_of(&case)?.as_mut(), case.end)?.is_some_and(|error| error < 0.1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(inline)]
+pub use meniscus_core::solver::{Measure, Series, Solver, SolverError};
 /// Shapes as specified, and the distance from their walls, above 0 in the pore; lengths in m:
 ///
 /// ```
@@ -80,32 +136,11 @@ pub use case::{Case, Loaded, Model, load, load_default};
 /// assert!(Geometry::new(&spec).unwrap_err().to_string().starts_with("the geometry has 1 problem(s)"));
 /// # Ok::<(), meniscus::GeometryError>(())
 /// ```
-pub use geometry::{
+#[doc(inline)]
+pub use meniscus_geometry::{
     Geometry, GeometryError,
     spec::{Channel, Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide},
 };
-/// Mistakes are reported all at once, each with its source location and a remedy:
-///
-/// ```
-/// use meniscus::{InputError, Mistake, Overrides, load_default};
-///
-/// let overrides = Overrides::parse(&["sph.spacing=-1", "sph.interface.tension=\"high\""])?;
-/// let InputError { mistakes } = load_default(&overrides).unwrap_err();
-/// assert_eq!(mistakes.len(), 2);
-/// let is_expected = |mistake: &Mistake| mistake.message == "expected a spacing in m above 0, found -1.0";
-/// assert!(mistakes.iter().any(is_expected));
-/// # Ok::<(), InputError>(())
-/// ```
-pub use input::{InputError, Mistake, Overrides};
-/// Points and boxes in m:
-///
-/// ```
-/// use meniscus::{Bounds, Vec2};
-///
-/// let bounds = Bounds { min: Vec2::zeros(), max: Vec2::new(2e-3, 1e-3) };
-/// assert!(bounds.contains(Vec2::new(1e-3, 1e-3)) && (bounds.area() - 2e-6).abs() < 1e-18);
-/// ```
-pub use math::{Bounds, Vec2};
 /// The pore network of a geometry, and the events of a displacement in it:
 ///
 /// ```
@@ -133,12 +168,23 @@ pub use math::{Bounds, Vec2};
 /// assert_eq!(events.phase(burst.elements[0]), Phase::Invading);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub use network::{
+#[doc(inline)]
+pub use meniscus_network::{
     ExtractError,
     displacement::{Conditions, CornerFilms, Displacement, Event, EventKind, Events, Phase, Trapping},
     extract,
     graph::{Network, Opening, Pores, Region, Throat},
 };
+/// Wetting laws: the angle of a contact line from its state:
+///
+/// ```
+/// use meniscus::{LineState, Wetting, Young};
+///
+/// let law = Wetting::Young(Young { contact_angle_deg: 60.0 });
+/// assert!((law.angle(&LineState::default()).cos() - 0.5).abs() < 1e-15);
+/// ```
+#[doc(inline)]
+pub use meniscus_wetting::{Wetting, Young, law::LineState};
 /// A run from its folder to its report, as executed by the program:
 ///
 /// ```
@@ -156,40 +202,3 @@ pub use network::{
 pub use run::execute::{Finished, Job, Mode, RunError, execute};
 pub use run::setup::build as solver_of;
 pub use run::simulation::{Unwatched, Watcher};
-/// The state of a solver for output:
-///
-/// ```
-/// use meniscus::{Field, Overrides, Snapshot, Values, load_default, solver_of};
-///
-/// let solver = solver_of(&load_default(&Overrides::parse(&["sph.spacing=4e-6"])?)?.case)?;
-/// let Snapshot { particles, .. } = solver.snapshot();
-/// let is_pressure = |field: &&Field| field.name == "pressure" && field.unit == "Pa";
-/// let pressure = particles.fields.iter().find(is_pressure).expect("every particle has a pressure");
-/// assert!(matches!(&pressure.values, Values::Scalar(values) if values.len() == particles.points.len()));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub use snapshot::{Field, Snapshot, Values};
-/// A solver, independent of its model, and its measures:
-///
-/// ```
-/// use meniscus::{Measure, Overrides, Series, Solver, SolverError, load_default, solver_of};
-///
-/// fn density_error(solver: &mut dyn Solver, end: f64) -> Result<Option<f64>, SolverError> {
-///     solver.step(end)?;
-///     let is_asked_for = |measure: &Measure| measure.name == "density-error";
-///     Ok(solver.measures(&Series::default()).into_iter().find(is_asked_for).map(|measure| measure.value))
-/// }
-/// let case = load_default(&Overrides::parse(&["sph.spacing=4e-6"])?)?.case;
-/// assert!(density_error(solver_of(&case)?.as_mut(), case.end)?.is_some_and(|error| error < 0.1));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub use solver::{Measure, Series, Solver, SolverError};
-/// Wetting laws: the angle of a contact line from its state:
-///
-/// ```
-/// use meniscus::{LineState, Wetting, Young};
-///
-/// let law = Wetting::Young(Young { contact_angle_deg: 60.0 });
-/// assert!((law.angle(&LineState::default()).cos() - 0.5).abs() < 1e-15);
-/// ```
-pub use wetting::{Wetting, Young, law::LineState};

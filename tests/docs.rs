@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
-use meniscus::case::{load, load_shapes};
-use meniscus::geometry::import::Options;
-use meniscus::input::Overrides;
+use meniscus_case::{load, load_shapes};
+use meniscus_core::input::Overrides;
+use meniscus_drawings::import::Options;
 
 #[path = "docs/equations.rs"]
 mod equations;
@@ -34,8 +34,8 @@ fn exists(path: &Path) -> bool {
 
 /// The sources and tests as one text.
 fn sources() -> String {
-    let all = [files(&root().join("src"), &["rs"]), files(&root().join("tests"), &["rs"])].concat();
-    all.iter().map(|path| std::fs::read_to_string(path).unwrap()).collect()
+    let all = ["src", "crates", "tests"].into_iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
+    all.map(|path| std::fs::read_to_string(path).unwrap()).collect()
 }
 
 #[test]
@@ -67,7 +67,8 @@ fn every_page_of_the_book_is_in_its_summary() {
 
 #[test]
 fn every_path_of_the_repository_that_is_named_exists() {
-    const FOLDERS: [&str; 7] = ["src/", "tests/", "cases/", "studies/", "geometries/", "postprocess/", "docs/"];
+    const FOLDERS: [&str; 8] =
+        ["src/", "crates/", "tests/", "cases/", "studies/", "geometries/", "postprocess/", "docs/"];
     for page in pages() {
         let fences = page.fences().into_iter().map(|fence| fence.text).collect::<String>();
         for name in page.code().iter().flat_map(|code| words(code)).chain(words(&fences)) {
@@ -213,10 +214,10 @@ fn defines(source: &str, name: &str) -> bool {
 fn every_function_on_the_page_of_equations_is_in_its_file() {
     let mut count = 0;
     for row in page("docs/equations.md").rows() {
-        for cell in row.iter().filter(|cell| cell.contains("` in `src/")) {
+        for cell in row.iter().filter(|cell| cell.contains("` in `src/") || cell.contains("` in `crates/")) {
             let mut names: Vec<String> = Vec::new();
             for piece in code(cell) {
-                if !piece.starts_with("src/") {
+                if !piece.starts_with("src/") && !piece.starts_with("crates/") {
                     names.push(piece);
                     continue;
                 }

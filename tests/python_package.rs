@@ -20,7 +20,7 @@ fn libraries() -> BTreeSet<String> {
 fn the_package_is_built_with_the_library_of_these_tests_and_passes_its_own() {
     let before = libraries();
     let python = package_interpreter();
-    // Another one is compiled where dependencies are used with other features: `python/Cargo.toml` must name those of the tests.
+    // Another one is compiled where dependencies are used with other features: the root `Cargo.toml` must turn on those that tests and pyo3 need.
     assert_eq!(libraries(), before, "the library was compiled once more for the Python package");
     let mut tests = Command::new(&python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]).arg(root().join("python/tests"));

@@ -1,9 +1,9 @@
 //! The fields of a solver as data for Python, with the names and the exact values of the files that a run writes.
 
-use meniscus::diagram::{Diagram, Stroke};
-use meniscus::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines};
-use meniscus::table::{Cells, Table};
 use meniscus::{Series, Snapshot, Solver, Values, Vec2};
+use meniscus_core::diagram::{Diagram, Stroke};
+use meniscus_core::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines};
+use meniscus_core::table::{Cells, Table};
 
 use crate::data::Data;
 

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use meniscus::case::NetworkOptions;
-use meniscus::geometry::import::Options;
-use meniscus::input::Problem;
 use meniscus::run::source::{self, Refusal, Source};
+use meniscus_case::NetworkOptions;
+use meniscus_core::input::Problem;
+use meniscus_drawings::import::Options;
 use serde_json::Value;
 
 use crate::refused::{DICT, Refused};

@@ -87,7 +87,7 @@ impl Refused {
         let raised = match self {
             Self::Case(Refusal::Input(error)) => case_error(py, of_input(&error, None)),
             Self::Case(Refusal::Options(problems)) => {
-                let shown = |problem: &meniscus::input::Problem| PythonMistake {
+                let shown = |problem: &meniscus_core::input::Problem| PythonMistake {
                     file: None,
                     location: None,
                     key: Some(parameter(&problem.path)).filter(|key| !key.is_empty()),

@@ -13,9 +13,9 @@ use super::import_arguments::ImportArguments;
 use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
-use crate::case::SideName;
-use crate::case::network::RawProcess;
-use crate::input::tables::Words;
+use meniscus_case::SideName;
+use meniscus_case::network::RawProcess;
+use meniscus_core::input::tables::Words;
 
 /// Exit codes, as in the help.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \

@@ -8,14 +8,14 @@ use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::built;
 use super::source;
-use crate::case::{Case, Model};
 use crate::run::advice::Advice;
 use crate::run::checked::{self, Checked};
 use crate::run::description::description;
 use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
-use crate::solver::Solver;
+use meniscus_case::{Case, Model};
+use meniscus_core::solver::Solver;
 
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1048576.0;

@@ -9,13 +9,13 @@ use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
 use super::output::{readable, say, tell};
 use super::run::{finish, new_folder};
 use super::source;
-use crate::case::network::state::NetworkState;
-use crate::case::{Case, Drive, Model, SIDES, Side};
-use crate::io::atomic;
 use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find, state_at_end};
 use crate::run::execute::Mode;
 use crate::run::folder;
 use crate::run::source::Source;
+use meniscus_case::network::state::NetworkState;
+use meniscus_case::{Case, Drive, Model, SIDES, Side};
+use meniscus_output::atomic;
 
 /// `couple`.
 #[derive(Debug, Args)]
@@ -73,7 +73,7 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
-    let direction = if avalanche.invading == crate::case::FluidPhase::NonWetting { 1.0 } else { -1.0 };
+    let direction = if avalanche.invading == meniscus_case::FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let beyond = |fraction: f64| avalanche.pressure_pa + direction * fraction * avalanche.in_plane_pa;
     let driving = beyond(arguments.excess);
     let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");

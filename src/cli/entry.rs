@@ -68,7 +68,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             Ok(DONE)
         }
         Some(Command::Schema { study }) => {
-            let schema = if study { crate::study::schema() } else { crate::case::schema() };
+            let schema = if study { crate::study::schema() } else { meniscus_case::schema() };
             say(format!("{schema:#}").trim_end());
             Ok(DONE)
         }

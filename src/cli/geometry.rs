@@ -8,11 +8,11 @@ use super::output::{readable, say, tell};
 use super::source::{self, Shapes};
 use super::stages::Stages;
 use super::write_shapes::{formats, write_shapes};
-use crate::io::picture::{PORE, picture};
-use crate::io::{atomic, vtk};
-use crate::math::Vec2;
 use crate::run::slips::slip_of_size;
-use crate::snapshot::{Cloud, Field, Snapshot, Values};
+use meniscus_core::math::Vec2;
+use meniscus_core::snapshot::{Cloud, Field, Snapshot, Values};
+use meniscus_output::picture::{PORE, picture};
+use meniscus_output::{atomic, vtk};
 
 /// Stages of loading and measuring, and those of writing.
 const STAGES: usize = 5;

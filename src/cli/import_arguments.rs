@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::geometry::import::{Frame, Nested, Options};
+use meniscus_drawings::import::{Frame, Nested, Options};
 
 /// How a drawing is read: the keys of `[geometry]` besides `file`.
 #[derive(Debug, Clone, Default, Args)]

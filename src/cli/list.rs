@@ -1,7 +1,7 @@
 //! `meniscus list`: the models by the names of their tables, with references.
 
 use super::output::say;
-use crate::wetting::laws;
+use meniscus_wetting::laws;
 
 /// Table of a case file, its model, its reference; before and after the wetting models.
 const MODELS: [[&str; 3]; 7] = [

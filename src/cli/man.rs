@@ -8,7 +8,7 @@ use clap_mangen::Man;
 use super::arguments::Arguments;
 use super::exit::{DONE, Failure, USAGE};
 use super::output::say;
-use crate::io::atomic;
+use meniscus_output::atomic;
 
 /// Prints the page of the program, or writes it with those of all commands into a folder.
 pub(crate) fn man(out: Option<&Path>) -> Result<u8, Failure> {

@@ -8,8 +8,8 @@ use super::run::{finish, new_folder};
 use super::source::load_network;
 use super::verify::verify;
 use super::verify_arguments::NetworkCommand;
-use crate::case::NetworkOptions;
 use crate::run::execute::Mode;
+use meniscus_case::NetworkOptions;
 
 /// Extracts the network of a shape file, or of the geometry of a case file, and runs the displacement given by the options.
 pub(crate) fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {

@@ -6,7 +6,7 @@ use super::arguments::NewArguments;
 use super::exit::{DONE, Failure, USAGE};
 use super::output::say;
 use super::{new_pack, source};
-use crate::io::atomic;
+use meniscus_output::atomic;
 
 /// Writes the starter case, or the generated grains, to a file that does not exist yet.
 pub(crate) fn new(arguments: &NewArguments) -> Result<u8, Failure> {

@@ -6,13 +6,13 @@ use super::arguments::{NewArguments, PackArguments, PackKind, PackPeriodic};
 use super::exit::{BAD_INPUT, DONE, Failure, USAGE};
 use super::output::{readable, say};
 use super::source::valid_depth;
-use crate::geometry::Geometry;
-use crate::geometry::export::{self, Beside, Format};
-use crate::geometry::pack::{Micromodel, array, micromodel, random_pack, smallest_gap};
-use crate::geometry::spec::{
+use meniscus_drawings::export::{self, Beside, Format};
+use meniscus_geometry::Geometry;
+use meniscus_geometry::pack::{Micromodel, array, micromodel, random_pack, smallest_gap};
+use meniscus_geometry::spec::{
     Arrangement, Array, Disc, GeometrySpec, PackAxes, RandomPack, ShapeSpec, SolidSide, ThroatCosine,
 };
-use crate::io::atomic;
+use meniscus_output::atomic;
 
 /// Fractions of the pack's size that a micromodel adds, and of a cosine throat's.
 const MANIFOLD: f64 = 0.1;
@@ -54,7 +54,7 @@ fn shapes(
     kind: PackKind,
     arguments: &PackArguments,
     region: [[f64; 2]; 2],
-) -> Result<Made, crate::geometry::pack::PackError> {
+) -> Result<Made, meniscus_geometry::pack::PackError> {
     let [min, max] = region;
     let plain = |discs: &[Disc]| GeometrySpec {
         min,

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::output::{duration, is_quiet, readable, tell};
 use crate::run::simulation::{Progress, Watcher};
-use crate::solver::Clock;
+use meniscus_core::solver::Clock;
 
 /// Length of the bar: per mille.
 const LENGTH: u64 = 1000;

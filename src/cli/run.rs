@@ -11,12 +11,12 @@ use super::progress::ProgressDisplay;
 use super::summary::summary;
 use super::threads::pool;
 use super::{interrupt, source};
-use crate::case::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
 use crate::run::source::Source;
 use crate::run::{folder, setup};
-use crate::solver::{Series, Solver};
+use meniscus_case::Case;
+use meniscus_core::solver::{Series, Solver};
 
 /// `run`.
 #[derive(Debug, Default, Args)]

@@ -4,16 +4,16 @@ use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
-use crate::case::{self, NetworkOptions, SIDES};
-use crate::geometry::import::{Imported, Options};
-use crate::geometry::spec::GeometrySpec;
-use crate::geometry::throats::throats;
-use crate::geometry::{Geometry, GeometryError};
-use crate::input::{Overrides, Problem};
 use crate::run::setup::{self, SetupError};
 use crate::run::source::{self, Refusal, Source, is_case_file};
-use crate::snapshot::{Grid, Lines};
-use crate::solver::{Measure, measure};
+use meniscus_case::{self, NetworkOptions, SIDES};
+use meniscus_core::input::{Overrides, Problem};
+use meniscus_core::snapshot::{Grid, Lines};
+use meniscus_core::solver::{Measure, measure};
+use meniscus_drawings::import::{Imported, Options};
+use meniscus_geometry::spec::GeometrySpec;
+use meniscus_geometry::throats::throats;
+use meniscus_geometry::{Geometry, GeometryError};
 
 /// Nodes of the distance grid along the longer side of a shape file's domain.
 const GRID_NODES: f64 = 400.0;
@@ -93,7 +93,9 @@ fn of_options(problems: &[Problem]) -> Failure {
 
 /// Refuses an invalid depth in m for these shapes.
 pub(crate) fn valid_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(), Failure> {
-    depth.and_then(|depth| case::implausible_depth(depth, spec)).map_or(Ok(()), |problem| Err(of_options(&[problem])))
+    depth
+        .and_then(|depth| meniscus_case::implausible_depth(depth, spec))
+        .map_or(Ok(()), |problem| Err(of_options(&[problem])))
 }
 
 /// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m if given; `at` receives the current stage.
@@ -118,7 +120,7 @@ pub(crate) fn load_shapes(
         (true, None) => {
             let set: Vec<String> = depth.iter().map(|depth| format!("geometry.depth={depth:?}")).collect();
             let overrides = Overrides::parse(&set).map_err(Failure::input)?;
-            let loaded = case::load(path, &overrides).map_err(Failure::input)?;
+            let loaded = meniscus_case::load(path, &overrides).map_err(Failure::input)?;
             loaded.notes.iter().for_each(tell);
             at("uniting the shapes");
             let geometry = setup::geometry(&loaded.case);
@@ -202,5 +204,7 @@ fn of_chip(geometry: &Geometry, depth: f64) -> [Measure; 4] {
 
 /// The commented starter case, of a chip if there is a `depth` in m.
 pub(crate) fn starter_case(depth: Option<f64>) -> Result<String, Failure> {
-    depth.map_or_else(|| Ok(case::starter_case().to_owned()), case::starter_of_chip).map_err(Failure::input)
+    depth
+        .map_or_else(|| Ok(meniscus_case::starter_case().to_owned()), meniscus_case::starter_of_chip)
+        .map_err(Failure::input)
 }

@@ -1,11 +1,11 @@
 //! The printed summary of a run: prescribed and measured contact angle, measures, numbers, files.
 
 use super::output::{duration, readable};
-use crate::case::{Case, Model};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status, Verdict};
 use crate::run::steady::Steadiness;
-use crate::solver::Clock;
+use meniscus_case::{Case, Model};
+use meniscus_core::solver::Clock;
 
 /// Name of the measure that is printed next to the prescribed angle.
 const ANGLE: &str = "contact-angle-deg";
@@ -134,7 +134,7 @@ mod tests {
     use crate::run::mock::{MockSolver, case};
     use crate::run::report::Motion;
     use crate::run::simulation::Unwatched;
-    use crate::wetting::{Wetting, Young};
+    use meniscus_wetting::{Wetting, Young};
 
     #[test]
     fn the_summary_shows_both_angles_measures_and_files() {

@@ -4,9 +4,9 @@ use super::arguments::WriteArguments;
 use super::exit::{BAD_INPUT, BUG, Failure, USAGE};
 use super::output::say;
 use super::source::Shapes;
-use crate::geometry::Geometry;
-use crate::geometry::export::{self, Beside, Format};
-use crate::io::{atomic, vtk};
+use meniscus_drawings::export::{self, Beside, Format};
+use meniscus_geometry::Geometry;
+use meniscus_output::{atomic, vtk};
 
 /// The formats of the requested drawings; `None` for the outline as VTK.
 pub(crate) fn formats(arguments: &WriteArguments) -> Result<Vec<Option<Format>>, Failure> {

@@ -8,9 +8,8 @@ use serde::Serialize;
 use super::numbers::{Length, expected_speed};
 use super::setup;
 use super::trial::Trial;
-use crate::case::{Case, Model, Sph};
-use crate::network;
-use crate::network::graph::Pores;
+use meniscus_case::{Case, Model, Sph};
+use meniscus_network::graph::Pores;
 
 /// Spacings across a throat from which its entry pressure is accurate (measured: `docs/validation/angles-at-rest.md`).
 const ACROSS: f64 = 8.0;
@@ -91,7 +90,7 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
     let trial = trial.filter(|_| sph.is_some());
     let clock = Instant::now();
     let (geometry, open) = (setup::geometry(case).ok()?, case.model.sides()?.open());
-    let network = network::extract(&geometry, open).ok()?;
+    let network = meniscus_network::extract(&geometry, open).ok()?;
     let pores = Pores::merged(&network, PERSISTENCE);
     let network_s = clock.elapsed().as_secs_f64();
     let mut widths: Vec<f64> = pores.throats.iter().map(|&throat| network.throats[throat].width).collect();

@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::compare::outlet_elements;
 use super::setup::SetupError;
-use crate::case::{Case, FluidPhase, Model};
-use crate::network::displacement::{EventKind, Phase};
-use crate::network::solver::NetworkSolver;
-use crate::network::state;
-use crate::solver::{Solver, SolverError};
+use meniscus_case::{Case, FluidPhase, Model};
+use meniscus_core::solver::{Solver, SolverError};
+use meniscus_network::displacement::{EventKind, Phase};
+use meniscus_network::solver::NetworkSolver;
+use meniscus_network::state;
 
 /// Name of the text of a network's final state.
 const AT_END: &str = "at-end.json";
@@ -77,7 +77,7 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     if network.is_dynamic() {
         return Err(AvalancheError::NoNetwork);
     }
-    let mut solver = crate::network::setup::build_quasi_static(case, network).map_err(SetupError::from)?;
+    let mut solver = meniscus_network::setup::build_quasi_static(case, network).map_err(SetupError::from)?;
     let cycles = solver.cycles().ok_or(AvalancheError::NoNetwork)?;
     let state = state::state(solver.config(), cycles.half_cycles(), &cycles.moment());
     let outlet = outlet_elements(&state);

@@ -4,8 +4,8 @@ use super::advice::{self, Advice};
 use super::description::doubts;
 use super::setup;
 use super::trial::{Trial, trial};
-use crate::case::Case;
-use crate::solver::{Series, Solver, SolverError};
+use meniscus_case::Case;
+use meniscus_core::solver::{Series, Solver, SolverError};
 
 /// A case whose first steps were tried.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use super::folder_error::FolderError;
-use crate::io::{FileError, atomic};
+use meniscus_output::{FileError, atomic};
 
 /// Exclusive access to a folder; it ends when this is dropped.
 #[derive(Debug)]

@@ -2,9 +2,9 @@
 
 use super::numbers::{Length, numbers};
 use super::slips::rounded;
-use crate::case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
-use crate::input::tables::Words;
-use crate::math::Vec2;
+use meniscus_case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
+use meniscus_core::input::tables::Words;
+use meniscus_core::math::Vec2;
 
 /// The parts of a case by name: its phases, its interface and its sides, if it has them.
 pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
@@ -108,9 +108,9 @@ fn in_order(sides: &Sides) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::load_default;
-    use crate::input::Overrides;
     use crate::run::slips::slips;
+    use meniscus_case::load_default;
+    use meniscus_core::input::Overrides;
 
     fn case(overrides: &[&str]) -> Case {
         load_default(&Overrides::parse(overrides).unwrap()).unwrap().case

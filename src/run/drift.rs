@@ -8,8 +8,8 @@
 //! √(2E/(σL)). E is at most the kinetic energy of the whole domain in the last window.
 
 use super::steady::{self, Windows, range};
-use crate::case::SteadyStop;
-use crate::solver::{Quantity, Series, Watched};
+use meniscus_case::SteadyStop;
+use meniscus_core::solver::{Quantity, Series, Watched};
 
 /// The motion of a quantity at the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

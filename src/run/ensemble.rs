@@ -5,18 +5,18 @@ use std::sync::atomic::AtomicBool;
 
 use super::schedule::Schedule;
 use super::setup::SetupError;
-use crate::case::network::PoreNetwork;
-use crate::case::{Case, Model};
-use crate::io::picture::region_map_picture;
-use crate::io::vtk::{self, Compression};
-use crate::io::{FileError, atomic, table};
-use crate::network::ensemble::Sample;
-use crate::network::setup;
+use meniscus_case::network::PoreNetwork;
+use meniscus_case::{Case, Model};
+use meniscus_network::ensemble::Sample;
+use meniscus_network::setup;
+use meniscus_output::picture::region_map_picture;
+use meniscus_output::vtk::{self, Compression};
+use meniscus_output::{FileError, atomic, table};
 
 /// The partition of the pore space of a network, on which maps are drawn.
-pub(crate) use crate::network::ensemble::Reference as Map;
-pub(crate) use crate::network::ensemble::{Observed, SATURATIONS};
-pub(crate) use crate::network::measures::Costly;
+pub(crate) use meniscus_network::ensemble::Reference as Map;
+pub(crate) use meniscus_network::ensemble::{Observed, SATURATIONS};
+pub(crate) use meniscus_network::measures::Costly;
 
 /// The network of a case; `None` if it has another model.
 fn network(case: &Case) -> Option<&PoreNetwork> {

@@ -17,11 +17,11 @@ use super::setup;
 use super::simulation::{Outcome, Simulation, Watcher};
 use super::sink::{Start, compression};
 use super::steady::Steadiness;
-use crate::case::Case;
-use crate::io::checksum::fnv1a;
-use crate::io::picture::{PictureError, picture, region_map_picture};
-use crate::io::{FileError, atomic, diagram, table, vtk};
-use crate::solver::{Clock, Results, Series, Solver, StateError};
+use meniscus_case::Case;
+use meniscus_core::solver::{Clock, Results, Series, Solver, StateError};
+use meniscus_output::checksum::fnv1a;
+use meniscus_output::picture::{PictureError, picture, region_map_picture};
+use meniscus_output::{FileError, atomic, diagram, table, vtk};
 
 /// Whether a run is new or resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::report::REPORT;
-use crate::case::{Case, Model};
-use crate::io::restart;
+use meniscus_case::{Case, Model};
+use meniscus_output::restart;
 
 /// Keys of a case that do not affect the results so far: intervals of the output follow from the end if not given.
 const FREE: [&str; 4] = ["end", "output", "expect", "title"];

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::claim::{self, Claim};
 use super::folder_error::FolderError;
-use crate::io::journal;
-use crate::io::restart::{self, Saved};
-use crate::io::{FileError, atomic, frames, series};
+use meniscus_output::journal;
+use meniscus_output::restart::{self, Saved};
+use meniscus_output::{FileError, atomic, frames, series};
 
 /// The default folder of a new run: `base`, or if that is in use `base-2`, `base-3`, ...
 ///

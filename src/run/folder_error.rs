@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::io::FileError;
+use meniscus_output::FileError;
 
 /// A folder that a run cannot use.
 #[derive(Debug, thiserror::Error)]

@@ -4,11 +4,11 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::simulation::{Progress, Watcher};
-use crate::case::{Case, Expectation, Origin, load_from};
-use crate::input::Overrides;
-use crate::math::{Vec2, perpendicular};
-use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
-use crate::solver::{
+use meniscus_case::{Case, Expectation, Origin, load_from};
+use meniscus_core::input::Overrides;
+use meniscus_core::math::{Vec2, perpendicular};
+use meniscus_core::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
+use meniscus_core::solver::{
     Measure, Quantity, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
 

@@ -7,9 +7,9 @@
 use serde::Serialize;
 
 use super::setup;
-use crate::case::film::{FilmDroplet, FilmEquation, Geometric, Precursor, Slip, ThinFilm};
-use crate::case::{Case, Drive, InitialVelocity, Model, Sph};
-use crate::math::Vec2;
+use meniscus_case::film::{FilmDroplet, FilmEquation, Geometric, Precursor, Slip, ThinFilm};
+use meniscus_case::{Case, Drive, InitialVelocity, Model, Sph};
+use meniscus_core::math::Vec2;
 
 /// A dimensionless number.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::diagram::{Diagram, Stroke, Trace};
-use crate::io::diagram::{DiagramError, svg};
+use meniscus_core::diagram::{Diagram, Stroke, Trace};
+use meniscus_output::diagram::{DiagramError, svg};
 
 /// Name of the diagram: its file is `capillary-pressure.svg`.
 pub(crate) const NAME: &str = "capillary-pressure";

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use cpu_time::ProcessTime;
 
-use crate::io::checksum::fnv1a;
-use crate::io::{FileError, atomic};
+use meniscus_output::checksum::fnv1a;
+use meniscus_output::{FileError, atomic};
 
 /// Measures the processor time of this process since it started on a run, and has that of earlier processes.
 #[derive(Debug, Clone, Copy)]

@@ -7,13 +7,13 @@ use super::processor_time::ProcessorTime;
 use super::schedule::Due;
 use super::sink::{Frame, Start, VtkFiles, write_units};
 use super::writer::{Record, Writer};
-use crate::io::frames::{self, FrameList};
-use crate::io::journal::Mark;
-use crate::io::restart::Saved;
-use crate::io::series::SeriesFile;
-use crate::io::vtk::Compression;
-use crate::io::{FileError, atomic, pvd, vtk};
-use crate::solver::{PartTime, Series, Solver};
+use meniscus_core::solver::{PartTime, Series, Solver};
+use meniscus_output::frames::{self, FrameList};
+use meniscus_output::journal::Mark;
+use meniscus_output::restart::Saved;
+use meniscus_output::series::SeriesFile;
+use meniscus_output::vtk::Compression;
+use meniscus_output::{FileError, atomic, pvd, vtk};
 
 /// The records of a run, and their wall time.
 #[derive(Default)]

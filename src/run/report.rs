@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::drift::Drift;
 use super::numbers::{Length, Number};
 use super::steady::Steadiness;
-use crate::case::{Case, Expectation};
-use crate::io::{FileError, atomic};
-use crate::solver::{Clock, Measure, PartTime, Quantity, Series, Statistics, Watched};
+use meniscus_case::{Case, Expectation};
+use meniscus_core::solver::{Clock, Measure, PartTime, Quantity, Series, Statistics, Watched};
+use meniscus_output::{FileError, atomic};
 
 /// Name of the file.
 pub(crate) const REPORT: &str = "report.json";

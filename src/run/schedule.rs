@@ -3,7 +3,7 @@
 //! Times come from a multiplication, never from a sum, and depend on the present time only, so that a resumed run stops at the same times as an uninterrupted
 //! one. Stops that differ only by rounding are one stop.
 
-use crate::case::Output;
+use meniscus_case::Output;
 
 /// Times closer than this fraction of the shortest interval are one: far above rounding, far below a time step.
 const SAME: f64 = 1.0e-9;

@@ -2,26 +2,25 @@
 
 use super::memory::{self, InsufficientMemory};
 use super::slips::slips;
-use crate::case::{Case, Facts, Model, Side, Sph, check_against};
-use crate::diagram::{Frame, Through};
-use crate::geometry::Geometry;
-use crate::input::Problem;
-use crate::math::{Bounds, Vec2};
-use crate::solver::{Series, Solver};
-use crate::{benchmarks, network, sph, thin_film};
+use meniscus_case::{Case, Facts, Model, Side, Sph, check_against};
+use meniscus_core::diagram::{Frame, Through};
+use meniscus_core::input::Problem;
+use meniscus_core::math::{Bounds, Vec2};
+use meniscus_core::solver::{Series, Solver};
+use meniscus_geometry::Geometry;
 
 /// Why no solver can be made for a case.
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
     /// The direct simulation cannot be set up.
     #[error("{0}")]
-    Sph(#[from] sph::setup::SetupError),
+    Sph(#[from] meniscus_sph::setup::SetupError),
     /// The thin film cannot be set up.
     #[error("{0}")]
-    ThinFilm(#[from] thin_film::setup::SetupError),
+    ThinFilm(#[from] meniscus_film::setup::SetupError),
     /// The network cannot be set up.
     #[error("{0}")]
-    Network(#[from] network::setup::SetupError),
+    Network(#[from] meniscus_network::setup::SetupError),
     /// The direct simulation needs more memory than available.
     #[error("{0}")]
     Memory(#[from] InsufficientMemory),
@@ -31,8 +30,8 @@ impl SetupError {
     /// The mistakes of the case, each at the key that a user would change.
     pub fn problems(&self) -> Vec<Problem> {
         let key = match self {
-            Self::Sph(sph::setup::SetupError::Geometry(error))
-            | Self::Network(network::setup::SetupError::Geometry(error)) => return error.problems_of_case(),
+            Self::Sph(meniscus_sph::setup::SetupError::Geometry(error))
+            | Self::Network(meniscus_network::setup::SetupError::Geometry(error)) => return error.problems_of_case(),
             Self::Sph(error) => error.key(),
             Self::ThinFilm(error) => error.key(),
             Self::Network(error) => error.key(),
@@ -61,11 +60,11 @@ fn solver(case: &Case, is_packed: bool, packed: &mut dyn FnMut(f64)) -> Result<B
     match &case.model {
         Model::Sph(sph) => {
             memory(case, sph)?;
-            let solver = sph::setup::solver(case, sph, is_packed, packed)?;
-            Ok(Box::new(solver.measuring(benchmarks::requested_groups(&sph.measure))))
+            let solver = meniscus_sph::setup::solver(case, sph, is_packed, packed)?;
+            Ok(Box::new(solver.measuring(meniscus_validation::requested_groups(&sph.measure))))
         }
-        Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
-        Model::Network(network) => Ok(network::setup::build(case, network)?),
+        Model::ThinFilm(film) => Ok(Box::new(meniscus_film::setup::build(case, film)?)),
+        Model::Network(network) => Ok(meniscus_network::setup::build(case, network)?),
     }
 }
 
@@ -76,7 +75,7 @@ fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
     let area = size.x * size.y;
     // The pore is measured only if the whole domain would not fit.
     if memory::check(area, sph.spacing, available).is_err() {
-        let porosity = sph::setup::geometry(case, sph)?.porosity().value;
+        let porosity = meniscus_sph::setup::geometry(case, sph)?.porosity().value;
         memory::check(porosity * area, sph.spacing, available)?;
     }
     Ok(())
@@ -85,11 +84,11 @@ fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
 /// What is wrong with a case for its actual geometry: unresolved throats, phases inside the solid, open sides without an opening.
 pub fn problems(case: &Case) -> Vec<Problem> {
     let Model::Sph(sph) = &case.model else { return Vec::new() };
-    let geometry = match sph::setup::checked_geometry(case, sph) {
+    let geometry = match meniscus_sph::setup::checked_geometry(case, sph) {
         Ok(geometry) => geometry,
         Err(error) => return SetupError::from(error).problems(),
     };
-    let region = |shape| sph::setup::region(case, std::slice::from_ref(shape));
+    let region = |shape| meniscus_sph::setup::region(case, std::slice::from_ref(shape));
     let regions: Vec<_> = sph.initial.wetting.iter().map(region).collect();
     let facts = Facts {
         throat: geometry.narrowest_throat().map(|throat| (throat.width, throat.center)),
@@ -105,9 +104,9 @@ pub fn problems(case: &Case) -> Vec<Problem> {
 /// [`SetupError`] if the shapes are not usable.
 pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
     match &case.model {
-        Model::Sph(sph) => Ok(sph::setup::geometry(case, sph)?),
-        Model::Network(network) => Ok(network::setup::geometry(case, network)?),
-        Model::ThinFilm(_) => Ok(Geometry::new(&case.geometry).map_err(sph::setup::SetupError::from)?),
+        Model::Sph(sph) => Ok(meniscus_sph::setup::geometry(case, sph)?),
+        Model::Network(network) => Ok(meniscus_network::setup::geometry(case, network)?),
+        Model::ThinFilm(_) => Ok(Geometry::new(&case.geometry).map_err(meniscus_sph::setup::SetupError::from)?),
     }
 }
 
@@ -131,8 +130,10 @@ pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
         Model::Sph(sph) => {
-            let of_depth =
-                sph.depth.and_then(|_| geometry(case).ok()).map(|geometry| sph::setup::notes_on_depth(sph, &geometry));
+            let of_depth = sph
+                .depth
+                .and_then(|_| geometry(case).ok())
+                .map(|geometry| meniscus_sph::setup::notes_on_depth(sph, &geometry));
             coarse_throat(case, sph).into_iter().chain(not_at_rest(sph)).chain(of_depth.unwrap_or_default()).collect()
         }
         Model::Network(_) => Vec::new(),
@@ -191,8 +192,8 @@ pub(crate) fn drop_area(case: &Case) -> Option<f64> {
     if sph.initial.wetting.is_empty() {
         return None;
     }
-    let pore = sph::setup::geometry(case, sph).ok()?;
-    let region = sph::setup::region(case, &sph.initial.wetting);
+    let pore = meniscus_sph::setup::geometry(case, sph).ok()?;
+    let region = meniscus_sph::setup::region(case, &sph.initial.wetting);
     let (min, max) = (Vec2::from(case.geometry.min), Vec2::from(case.geometry.max));
     let cell = (max - min) / NODES as f64;
     let mut found = [(0, Bounds { min: max, max: min }); 2];
@@ -213,6 +214,6 @@ pub(crate) fn drop_area(case: &Case) -> Option<f64> {
 /// Width of the narrowest throat of a case in m; `None` if there is no throat, or no usable geometry.
 pub(crate) fn throat(case: &Case) -> Option<f64> {
     let Model::Sph(sph) = &case.model else { return None };
-    let geometry = sph::setup::geometry(case, sph).ok()?;
+    let geometry = meniscus_sph::setup::geometry(case, sph).ok()?;
     geometry.narrowest_throat().map(|throat| throat.width)
 }

@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::records::Records;
 use super::schedule::{Due, Schedule};
 use super::steady::is_steady;
-use crate::case::SteadyStop;
-use crate::io::FileError;
-use crate::solver::{Clock, Solver, SolverError, StepInfo};
+use meniscus_case::SteadyStop;
+use meniscus_core::solver::{Clock, Solver, SolverError, StepInfo};
+use meniscus_output::FileError;
 
 /// How a run ended.
 #[derive(Debug)]

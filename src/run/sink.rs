@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::case::{self, Output};
-use crate::io::frames::{FrameList, Written};
-use crate::io::journal::Mark;
-use crate::io::pvd::Collection;
-use crate::io::vtk::{self, Compression, VtkError};
-use crate::io::{FileError, atomic};
-use crate::snapshot::{Layer, Snapshot};
-use crate::solver::Solver;
+use meniscus_case::{self, Output};
+use meniscus_core::snapshot::{Layer, Snapshot};
+use meniscus_core::solver::Solver;
+use meniscus_output::frames::{FrameList, Written};
+use meniscus_output::journal::Mark;
+use meniscus_output::pvd::Collection;
+use meniscus_output::vtk::{self, Compression, VtkError};
+use meniscus_output::{FileError, atomic};
 
 /// The data of the solver for VTK files, copied so that the solver can continue while they are written.
 pub(crate) struct Frame {
@@ -45,9 +45,9 @@ pub(crate) enum Start {
 /// The compression setting of the case for the writer of VTK files.
 pub(crate) fn compression(output: &Output) -> Compression {
     match output.vtk_compression {
-        case::Compression::None => Compression::None,
-        case::Compression::Zlib => Compression::Zlib,
-        case::Compression::Lz4 => Compression::Lz4,
+        meniscus_case::Compression::None => Compression::None,
+        meniscus_case::Compression::Zlib => Compression::Zlib,
+        meniscus_case::Compression::Lz4 => Compression::Lz4,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Slips of units: numbers of which another unit is likely.
 
-use crate::case::{Case, Model};
-use crate::math::Vec2;
+use meniscus_case::{Case, Model};
+use meniscus_core::math::Vec2;
 
 /// Numbers of which another unit is likely, each with the unit that is meant.
 pub(crate) fn slips(case: &Case) -> Vec<String> {

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::setup::{self, SetupError};
-use crate::case::{self, Case, Loaded, Model, NetworkOptions, Origin};
-use crate::geometry::import::{self, Beyond, Imported, Options};
-use crate::geometry::spec::GeometrySpec;
-use crate::input::{Document, InputError, Overrides, Problem, file};
+use meniscus_case::{self, Case, Loaded, Model, NetworkOptions, Origin};
+use meniscus_core::input::{Document, InputError, Overrides, Problem, file};
+use meniscus_drawings::import::{self, Beyond, Imported, Options};
+use meniscus_geometry::spec::GeometrySpec;
 
 /// Name of the output folder of the built-in case.
 const DEFAULT_NAME: &str = "four-discs";
@@ -90,7 +90,7 @@ pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Re
 
 /// The case, if it is valid for its geometry.
 fn sound(origin: &Origin, overrides: &[String], name: String) -> Result<Source, InputError> {
-    let loaded = case::load_from(origin, &Overrides::parse(overrides)?, None)?;
+    let loaded = meniscus_case::load_from(origin, &Overrides::parse(overrides)?, None)?;
     loaded.refuse(setup::problems(&loaded.case))?;
     let Loaded { case, resolved, notes, document, .. } = loaded;
     Ok(Source { case, resolved, name, notes, document: Some(document) })
@@ -100,7 +100,7 @@ fn sound(origin: &Origin, overrides: &[String], name: String) -> Result<Source, 
 pub fn is_case_file(path: &Path) -> bool {
     // Errors of unreadable files are left to the readers of shape files.
     let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    is_toml && file::read_text(path).is_ok_and(|text| case::is_case(&text))
+    is_toml && file::read_text(path).is_ok_and(|text| meniscus_case::is_case(&text))
 }
 
 /// The shapes of a drawing; those that cross a periodic side are cut there.
@@ -108,7 +108,7 @@ pub fn is_case_file(path: &Path) -> bool {
 /// # Errors
 /// All mistakes of the file or of the options, or why it cannot be read.
 pub fn load_drawing(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<Imported, InputError> {
-    Ok(within_sides(case::load_shapes(path, options)?, options, periodic))
+    Ok(within_sides(meniscus_case::load_shapes(path, options)?, options, periodic))
 }
 
 fn within_sides(mut read: Imported, options: &Options, [x, y]: [bool; 2]) -> Imported {
@@ -147,7 +147,7 @@ pub fn load_network_text(
     import: &Options,
     options: &NetworkOptions,
 ) -> Result<Source, Refusal> {
-    let read = case::load_shapes_text(name, text, import)?;
+    let read = meniscus_case::load_shapes_text(name, text, import)?;
     network_of(name, within_sides(read, import, options.periodic), options)
 }
 
@@ -160,6 +160,6 @@ fn network_of(name: &str, read: Imported, options: &NetworkOptions) -> Result<So
     let geometry: GeometrySpec = spec;
     let title = format!("Network of {name}");
     let depth = options.depth.or(of_file);
-    let (case, resolved) = case::quick(&title, geometry, depth, &options.table()).map_err(Refusal::Options)?;
+    let (case, resolved) = meniscus_case::quick(&title, geometry, depth, &options.table()).map_err(Refusal::Options)?;
     Ok(Source { case, resolved, name: format!("{name}-network"), notes, document: None })
 }

@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
-use crate::case::{FEWEST_ROWS, SteadyStop};
-use crate::solver::{Quantity, Series, Watched};
+use meniscus_case::{FEWEST_ROWS, SteadyStop};
+use meniscus_core::solver::{Quantity, Series, Watched};
 
 /// Length of a window relative to the elapsed time, if the case gives none: slow changes have that much longer to show.
 pub(crate) const SHARE: f64 = 0.2;

@@ -8,9 +8,9 @@ use super::execute::drawn;
 use super::memory;
 use super::schedule::Schedule;
 use super::sink::compression;
-use crate::case::Case;
-use crate::io::vtk;
-use crate::solver::{Solver, SolverError};
+use meniscus_case::Case;
+use meniscus_core::solver::{Solver, SolverError};
+use meniscus_output::vtk;
 
 /// Number of trial steps; the first ones set up what later ones reuse.
 const TRIAL_STEPS: usize = 5;

@@ -10,9 +10,9 @@ use std::thread::JoinHandle;
 
 use super::processor_time;
 use super::sink::{Frame, VtkFiles};
-use crate::io::FileError;
-use crate::io::frames::FrameList;
-use crate::io::restart::{self, Saved};
+use meniscus_output::FileError;
+use meniscus_output::frames::FrameList;
+use meniscus_output::restart::{self, Saved};
 
 /// Records that may wait while another one is written; the caller of one more waits, too. Each takes as much memory as the flow.
 const WAITING: usize = 1;
@@ -105,10 +105,10 @@ fn write_all(
 mod tests {
     use super::super::mock::MockSolver;
     use super::*;
-    use crate::io::atomic;
-    use crate::io::journal::Mark;
-    use crate::io::vtk::Compression;
-    use crate::solver::Solver;
+    use meniscus_core::solver::Solver;
+    use meniscus_output::atomic;
+    use meniscus_output::journal::Mark;
+    use meniscus_output::vtk::Compression;
 
     fn state(step: u64) -> Record {
         let (series, frames) = (Mark::default(), Mark::default());

@@ -6,8 +6,8 @@ use toml::Value;
 
 use super::definition::{Axis, Column, Target};
 use super::raw::{RawAxis, RawColumn, RawRange, RawScale};
-use crate::case::read;
-use crate::input::Checker;
+use meniscus_case::read;
+use meniscus_core::input::Checker;
 
 /// Most values of an axis.
 const MOST_VALUES: usize = 10_000;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::definition::Assignment;
-use crate::case::{self, KeptGeometry, Loaded, Origin};
-use crate::input::{InputError, Overrides};
 use crate::run::setup;
+use meniscus_case::{self, KeptGeometry, Loaded, Origin};
+use meniscus_core::input::{InputError, Overrides};
 
 /// The expectations of a base case apply to its own values; a study has its own.
 const WITHOUT_EXPECTATIONS: &str = "expect=[]";
@@ -24,7 +24,7 @@ pub(super) fn overrides(assignments: &[Assignment]) -> Vec<String> {
 /// All mistakes.
 pub(super) fn load(case: &Path, assignments: &[Assignment], kept: Option<&KeptGeometry>) -> Result<Loaded, InputError> {
     let overrides = Overrides::parse(&overrides(assignments))?;
-    let loaded = case::load_from(&Origin::Disk(case), &overrides, kept)?;
+    let loaded = meniscus_case::load_from(&Origin::Disk(case), &overrides, kept)?;
     loaded.refuse(setup::problems(&loaded.case))?;
     Ok(loaded)
 }

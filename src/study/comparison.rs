@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::base_case::load;
 use super::definition::{Assignment, ComparisonPlan, Study};
-use crate::case::{Case, Loaded};
-use crate::input::{Document, InputError, Problem};
 use crate::run::compare::{self, CompareError, Of, Pair};
+use meniscus_case::{Case, Loaded};
+use meniscus_core::input::{Document, InputError, Problem};
 
 /// The table that only the case of a network has.
 const OF_NETWORK: &str = "network";

@@ -3,7 +3,7 @@
 use super::definition::{Choice, Column, Study, Target, Trend};
 use super::results::{RunResult, grouped};
 use super::values::{same, shown};
-use crate::analysis::convergence::observed_order;
+use meniscus_geometry::analysis::convergence::observed_order;
 
 /// Last part of a key that is a spacing.
 const SPACING: &str = "spacing";

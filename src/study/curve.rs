@@ -4,9 +4,9 @@ use super::definition::{Curve, Quantity};
 use super::raw::RawScale;
 use super::results::{RunResult, measures};
 use super::values::shown;
-use crate::analysis::convergence::observed_order;
-use crate::diagram::{Axis, Diagram, Stroke, Trace};
-use crate::io::diagram::{DiagramError, Layout, svg_with};
+use meniscus_core::diagram::{Axis, Diagram, Stroke, Trace};
+use meniscus_geometry::analysis::convergence::observed_order;
+use meniscus_output::diagram::{DiagramError, Layout, svg_with};
 
 /// A point of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]

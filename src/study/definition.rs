@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use toml::Value;
 
 use super::raw::RawScale;
-use crate::input::{InputError, Problem};
+use meniscus_core::input::{InputError, Problem};
 
 /// A study that can be planned.
 #[derive(Debug, Clone)]
@@ -30,7 +30,7 @@ pub struct Study {
     pub trends: Vec<Trend>,
     /// What the report shows.
     pub report: ReportPlan,
-    pub(super) document: crate::input::Document,
+    pub(super) document: meniscus_core::input::Document,
 }
 
 /// The network that the cases of all runs are compared with.

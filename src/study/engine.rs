@@ -12,8 +12,8 @@ use super::estimate::{Cores, Estimate};
 use super::folder::StudyFolder;
 use super::results::{RunState, is_complete, run_state};
 use super::run::{PlannedRun, Run};
-use crate::io::{FileError, atomic};
 use crate::run::memory;
+use meniscus_output::{FileError, atomic};
 
 /// Exit codes of a process that does one run.
 pub(crate) mod code {

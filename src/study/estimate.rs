@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 use super::child::Program;
 use super::run::PlannedRun;
-use crate::io::atomic;
 use crate::run::trial::Trial;
+use meniscus_output::atomic;
 
 /// The expected cost of a run, or why it is not known.
 pub(crate) type Estimate = Result<Trial, String>;

@@ -8,14 +8,14 @@ use super::engine::End;
 use super::folder::{FolderError, StudyFolder};
 use super::results::{is_complete, run_state};
 use super::run::PlannedRun;
-use crate::input::InputError;
-use crate::io::{FileError, restart};
 use crate::run::compare::{self, DIRECT_RUN, Task};
 use crate::run::execute::{Job, Mode, RunError, execute};
 use crate::run::folder_error::FolderError as RunFolderError;
 use crate::run::report::{REPORT, Report, Status};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
+use meniscus_core::input::InputError;
+use meniscus_output::{FileError, restart};
 
 /// Why a run cannot be done.
 #[derive(Debug, thiserror::Error)]

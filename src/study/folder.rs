@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use super::definition::Study;
-use crate::io::{FileError, atomic};
 use crate::run::claim::{holder, open};
+use meniscus_output::{FileError, atomic};
 
 /// Name of the lock.
 const LOCK: &str = "study.lock";

@@ -9,8 +9,8 @@ use super::names::Names;
 use super::raw::{RawComparison, RawStudy};
 use super::results::RUN_NUMBERS;
 use super::sampling::{SampledAxis, sampled};
-use crate::case::{other_than_a_study, read};
-use crate::input::{Checker, Document, InputError, Overrides};
+use meniscus_case::{other_than_a_study, read};
+use meniscus_core::input::{Checker, Document, InputError, Overrides};
 
 /// Most runs of a study.
 const MOST_RUNS: usize = 10_000;

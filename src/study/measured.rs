@@ -5,8 +5,8 @@
 use super::definition::{Choice, Study};
 use super::results::RUN_NUMBERS;
 use super::run::PlannedRun;
-use crate::case::measures::{offers, offers_of_comparison, unmeasured};
-use crate::input::Problem;
+use meniscus_case::measures::{offers, offers_of_comparison, unmeasured};
+use meniscus_core::input::Problem;
 
 /// Names of measures that the runs do not have, each with its location in the study file.
 pub(super) fn problems(study: &Study, planned: &[PlannedRun]) -> Vec<Problem> {

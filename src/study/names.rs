@@ -7,8 +7,8 @@ use toml::Value;
 use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
 use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
 use super::values::{number_of, same, shown};
-use crate::input::tables::Key;
-use crate::input::{Checker, nearest};
+use meniscus_core::input::tables::Key;
+use meniscus_core::input::{Checker, nearest};
 
 /// The parameters that expectations and curves can refer to.
 pub(super) struct Names<'a> {

@@ -9,8 +9,8 @@ use super::folder::{Claim, Share, StudyFolder};
 use super::load::load;
 use super::run::PlannedRun;
 use super::runs::runs;
-use crate::input::InputError;
 use crate::run::simulation::Watcher;
+use meniscus_core::input::InputError;
 
 /// A run with its checked case and the folder of its study.
 #[derive(Debug)]

@@ -9,8 +9,8 @@ use super::results::{RunResult, RunState, moving};
 use super::table::{Table, shown_measures};
 use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
-use crate::io::html::{self, escaped};
 use crate::run::compare::PAGE;
+use meniscus_output::html::{self, escaped};
 
 /// Content of the page.
 #[derive(Debug)]

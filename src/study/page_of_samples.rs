@@ -2,7 +2,7 @@
 
 use super::ensemble::bands::Figures;
 use super::ensemble::statistics::Statistics;
-use crate::io::html::escaped;
+use meniscus_output::html::escaped;
 
 /// The statistics and figures of the samples.
 #[derive(Debug)]

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::input::Range;
-use crate::input::tables::{Key, Value, tables};
+use meniscus_core::input::Range;
+use meniscus_core::input::tables::{Key, Value, tables};
 
 tables! {
     /// A study file: one or more base cases, what varies, what is expected, what is shown.

@@ -17,11 +17,11 @@ use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results
 use super::run::PlannedRun;
 use super::table::{self, Table};
 use super::verdict::{Judgment, judgments};
-use crate::input::nearest;
-use crate::io::diagram::DiagramError;
-use crate::io::{FileError, atomic};
 use crate::run::compare::CURVES;
 use crate::run::pressure_curves;
+use meniscus_core::input::nearest;
+use meniscus_output::diagram::DiagramError;
+use meniscus_output::{FileError, atomic};
 
 /// Why a report cannot be written.
 #[derive(Debug, thiserror::Error)]

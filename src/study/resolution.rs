@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::convergence::{groups, spacing};
 use super::definition::Study;
 use super::results::{RUN_NUMBERS, RunResult, measures};
-use crate::analysis::convergence::discretization_uncertainties;
 use crate::run::report::STEADY_AT;
+use meniscus_geometry::analysis::convergence::discretization_uncertainties;
 
 /// Suffixes of measures that are errors or counts themselves: their dependence on the spacing is not an uncertainty.
 const ERRORS_AND_COUNTS: [&str; 7] =

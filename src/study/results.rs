@@ -7,9 +7,9 @@ use serde::Deserialize;
 
 use super::folder::StudyFolder;
 use super::run::{PlannedRun, Run};
-use crate::io::restart;
 use crate::run::compare::DIRECT_RUN;
 use crate::run::report::{Motion, REPORT, Reading, Status};
+use meniscus_output::restart;
 
 /// Properties of a run besides its measures.
 pub(crate) const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];

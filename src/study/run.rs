@@ -8,9 +8,9 @@ use super::base_case;
 use super::comparison::{self, NetworkRun, PlannedNetwork};
 use super::definition::{Assignment, Choice, Quantity, Study};
 use super::values::{number_of, same, shown};
-use crate::case::{Case, KeptGeometry, Loaded};
-use crate::input::{Document, InputError, Mistake, Problem};
-use crate::io::checksum::fnv1a;
+use meniscus_case::{Case, KeptGeometry, Loaded};
+use meniscus_core::input::{Document, InputError, Mistake, Problem};
+use meniscus_output::checksum::fnv1a;
 
 /// Prefix of the message of a mistake in a sampled value.
 pub(super) const SAMPLE_MISTAKE: &str = "a sample is refused: ";

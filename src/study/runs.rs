@@ -8,8 +8,8 @@ use super::definition::{Assignment, Study, Target};
 use super::run::{Parameter, PlannedRun, Run, SAMPLE_MISTAKE};
 use super::values::shown;
 use super::{comparison, measured};
-use crate::input::{InputError, Mistake};
-use crate::io::checksum::fnv1a;
+use meniscus_core::input::{InputError, Mistake};
+use meniscus_output::checksum::fnv1a;
 
 /// Longest name of a run; file systems allow 255 bytes, and files in the folder have names, too.
 const LONGEST_NAME: usize = 120;

@@ -10,7 +10,7 @@ use super::load::load;
 use super::report::{ReportError, report};
 use super::run::PlannedRun;
 use super::runs::plan;
-use crate::input::InputError;
+use meniscus_core::input::InputError;
 
 /// A study with its checked runs and its folder.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use super::engine::memory_of;
 use super::estimate::Estimate;
 use super::folder::StudyFolder;
 use super::run::PlannedRun;
-use crate::io::{FileError, atomic};
+use meniscus_output::{FileError, atomic};
 
 /// Seconds before a time limit at which a run is requested to save its state.
 const NOTICE: u32 = 60;

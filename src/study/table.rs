@@ -5,8 +5,8 @@ use super::resolution::Resolution;
 use super::results::{RunResult, measures};
 use super::values::shown;
 use super::verdict::{digits, significant};
-use crate::io::FileError;
-use crate::io::html::escaped;
+use meniscus_output::FileError;
+use meniscus_output::html::escaped;
 
 /// A table with its numbers as text.
 #[derive(Debug, Clone, PartialEq, Eq)]

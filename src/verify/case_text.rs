@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use super::fluids::Fluids;
 use super::subdomain::Subdomain;
-use crate::case::Fluid;
-use crate::geometry::spec::{GeometrySpec, ShapeSpec};
-use crate::network::cycles::FluidPhase as Phase;
+use meniscus_case::Fluid;
+use meniscus_geometry::spec::{GeometrySpec, ShapeSpec};
+use meniscus_network::cycles::FluidPhase as Phase;
 
 /// Reynolds number ρQ/μ of the flow with which conductances are measured.
 const REYNOLDS: f64 = 0.01;
@@ -67,7 +67,8 @@ pub(crate) fn entry(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> St
     // The more viscous phase damps oscillations most.
     let density = wetting.density.max(other.density);
     let viscosity = wetting.viscosity.max(other.viscosity);
-    let size = crate::math::Vec2::from(subdomain.geometry.max) - crate::math::Vec2::from(subdomain.geometry.min);
+    let size = meniscus_core::math::Vec2::from(subdomain.geometry.max)
+        - meniscus_core::math::Vec2::from(subdomain.geometry.min);
     let length = size.min().max(width);
     let end = (CAPILLARY_TIMES * (density * length.powi(3) / tension).sqrt())
         .max(VISCOUS_TIMES * density * width * width / viscosity)

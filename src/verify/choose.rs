@@ -6,9 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::subject::Subject;
-use crate::geometry::curve::Curve;
-use crate::interface::menisci::{Meniscus, Passage};
-use crate::math::Vec2;
+use meniscus_core::math::Vec2;
+use meniscus_geometry::curve::Curve;
+use meniscus_geometry::interface::menisci::{Meniscus, Passage};
 
 /// Relative difference below which pressures are close to each other.
 const CLOSE: f64 = 0.05;

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::case::Fluid;
-use crate::interface::depth::Depth;
-use crate::network::cycles::FluidPhase as Phase;
+use meniscus_case::Fluid;
+use meniscus_geometry::interface::depth::Depth;
+use meniscus_network::cycles::FluidPhase as Phase;
 
 /// Density in kg/m³ if the network gives none: at rest no pressure depends on it.
 pub(crate) const DENSITY: f64 = 1000.0;

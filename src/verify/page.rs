@@ -2,8 +2,8 @@
 
 use super::plan::RUNS;
 use super::results::Row;
-use crate::io::html::{self, escaped};
 use crate::study::table::Table;
+use meniscus_output::html::{self, escaped};
 
 /// The page of throats with their table, as HTML.
 pub(crate) fn page(title: &str, table: &Table, rows: &[Row]) -> String {

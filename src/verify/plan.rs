@@ -9,14 +9,14 @@ use super::choose::{Chosen, touches_first};
 use super::fluids::Fluids;
 use super::subdomain::{Impossible, Subdomain};
 use super::subject::Subject;
-use crate::case::load;
-use crate::input::Overrides;
-use crate::io::checksum::fnv1a;
-use crate::io::{FileError, atomic};
-use crate::network::conductance::conductances;
-use crate::network::extract;
-use crate::network::graph::Network;
-use crate::network::permeability::{Drive, Paths, permeability};
+use meniscus_case::load;
+use meniscus_core::input::Overrides;
+use meniscus_network::conductance::conductances;
+use meniscus_network::extract;
+use meniscus_network::graph::Network;
+use meniscus_network::permeability::{Drive, Paths, permeability};
+use meniscus_output::checksum::fnv1a;
+use meniscus_output::{FileError, atomic};
 
 /// The study file of a folder.
 pub(crate) const STUDY: &str = "verify.toml";

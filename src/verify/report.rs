@@ -7,10 +7,10 @@ use super::page::page;
 use super::results::{Direct, Row, Status};
 use super::subdomain::Subdomain;
 use super::subject::Subject;
-use crate::case::network::measured::{Measured, MeasuredThroat};
-use crate::io::{FileError, atomic};
-use crate::network::graph::Throat;
 use crate::study::table::Table;
+use meniscus_case::network::measured::{Measured, MeasuredThroat};
+use meniscus_network::graph::Throat;
+use meniscus_output::{FileError, atomic};
 
 /// The output.
 #[derive(Debug)]

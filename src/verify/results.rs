@@ -2,8 +2,8 @@
 
 use super::fluids::Fluids;
 use super::plan::{Kind, Planned, case_name};
-use crate::network::cycles::FluidPhase;
 use crate::study::results::{RunResult, RunState};
+use meniscus_network::cycles::FluidPhase;
 
 /// Relative difference between the entry pressures of both spacings above which neither is trusted.
 const COARSE_PRESSURE: f64 = 0.05;

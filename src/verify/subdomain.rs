@@ -5,11 +5,11 @@
 //! meniscus depends only on the two walls that it meets: other bodies are left out, and counted if they reach into the box.
 
 use super::wall_path::{Followed, Frame, UpperWall, follow, mirrored};
-use crate::geometry::Geometry;
-use crate::geometry::curve::Curve;
-use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, HalfPlane, ShapeSpec, SolidSide};
-use crate::interface::menisci::{Hand, Meniscus, Passage, Wall};
-use crate::math::{Vec2, perpendicular};
+use meniscus_core::math::{Vec2, perpendicular};
+use meniscus_geometry::Geometry;
+use meniscus_geometry::curve::Curve;
+use meniscus_geometry::interface::menisci::{Hand, Meniscus, Passage, Wall};
+use meniscus_geometry::spec::{CurvedPolygon, Disc, GeometrySpec, HalfPlane, ShapeSpec, SolidSide};
 
 /// Recession of a wall from the throat at which the box cuts it, in widths: the passage is then four widths wide, and its resistance per
 /// length 1/64 of that in the throat.

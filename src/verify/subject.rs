@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use super::fluids::Chip;
-use crate::case::{Case, Fluid, Model, on_plates};
-use crate::interface::depth::Depth;
-use crate::interface::menisci::Passage;
-use crate::network::cycles::{Cycles, Entry, FluidPhase};
-use crate::network::displacement::{Conditions, Displacement, EventKind};
-use crate::network::graph::Throat;
-use crate::network::setup::{SetupError, build_quasi_static};
-use crate::network::solver::NetworkSolver;
+use meniscus_case::{Case, Fluid, Model, on_plates};
+use meniscus_geometry::interface::depth::Depth;
+use meniscus_geometry::interface::menisci::Passage;
+use meniscus_network::cycles::{Cycles, Entry, FluidPhase};
+use meniscus_network::displacement::{Conditions, Displacement, EventKind};
+use meniscus_network::graph::Throat;
+use meniscus_network::setup::{SetupError, build_quasi_static};
+use meniscus_network::solver::NetworkSolver;
 
 /// A case whose throats cannot be verified.
 #[derive(Debug, thiserror::Error)]
@@ -94,7 +94,7 @@ impl Subject {
     }
 
     /// The passage through a throat into its region `to`, and the other walls ahead.
-    pub fn passage(&self, throat: usize, to: usize) -> Option<(Passage, Vec<crate::geometry::curve::Curve>)> {
+    pub fn passage(&self, throat: usize, to: usize) -> Option<(Passage, Vec<meniscus_geometry::curve::Curve>)> {
         self.fresh.passage_through(throat, to)
     }
 

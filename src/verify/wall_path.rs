@@ -6,9 +6,9 @@
 
 use nalgebra::Rotation2;
 
-use crate::geometry::curve::Curve;
-use crate::interface::menisci::{Hand, Wall};
-use crate::math::Vec2;
+use meniscus_core::math::Vec2;
+use meniscus_geometry::curve::Curve;
+use meniscus_geometry::interface::menisci::{Hand, Wall};
 
 /// Sample points along a curve that bracket the crossing of a level before bisection.
 const SAMPLES: usize = 64;

@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use meniscus::case::FluidPhase;
-use meniscus::case::Model;
-use meniscus::case::network::state::NetworkState;
-use meniscus::case::{Loaded, load};
-use meniscus::geometry::Geometry;
-use meniscus::geometry::curve::Curve;
-use meniscus::input::{InputError, Overrides};
-use meniscus::math::{Bounds, Vec2};
-use meniscus::network::displacement::EventKind;
-use meniscus::network::solver::NetworkSolver;
-use meniscus::network::{self, state};
 use meniscus::run::setup;
-use meniscus::solver::Solver;
+use meniscus_case::FluidPhase;
+use meniscus_case::Model;
+use meniscus_case::network::state::NetworkState;
+use meniscus_case::{Loaded, load};
+use meniscus_core::input::{InputError, Overrides};
+use meniscus_core::math::{Bounds, Vec2};
+use meniscus_core::solver::Solver;
+use meniscus_geometry::Geometry;
+use meniscus_geometry::curve::Curve;
+use meniscus_network::displacement::EventKind;
+use meniscus_network::solver::NetworkSolver;
+use meniscus_network::{self, state};
 use tempfile::TempDir;
 
 /// A random pack of 2 mm by 1.4 mm; `more` are further keys of `[network]`.
@@ -40,7 +40,7 @@ fn solver(text: &str) -> NetworkSolver {
     let folder = TempDir::new().unwrap();
     let case = loaded(folder.path(), text).unwrap().case;
     let Model::Network(wanted) = &case.model else { panic!("no network") };
-    network::setup::build_quasi_static(&case, wanted).unwrap()
+    meniscus_network::setup::build_quasi_static(&case, wanted).unwrap()
 }
 
 fn state_of(solver: &NetworkSolver) -> NetworkState {
@@ -127,7 +127,7 @@ fn menisci_rest_at_one_curvature_and_meet_their_walls_at_the_contact_angle() {
     }
 }
 
-fn case_geometry(text: &str) -> meniscus::geometry::spec::GeometrySpec {
+fn case_geometry(text: &str) -> meniscus_geometry::spec::GeometrySpec {
     let folder = TempDir::new().unwrap();
     loaded(folder.path(), text).unwrap().case.geometry
 }
@@ -184,7 +184,7 @@ fn a_displacement_that_is_handed_on_goes_on_as_the_unbroken_one() {
         let handed_on =
             loaded(folder.path(), &pack(seed, sides, process, angle, "initial = \"state.json\"")).unwrap().case;
         let Model::Network(wanted) = &handed_on.model else { panic!("no network") };
-        let mut rest = network::setup::build_quasi_static(&handed_on, wanted).unwrap();
+        let mut rest = meniscus_network::setup::build_quasi_static(&handed_on, wanted).unwrap();
         for solver in [&mut whole, &mut rest] {
             while !solver.is_done() {
                 solver.step(f64::INFINITY).unwrap();
@@ -223,7 +223,7 @@ fn committed() -> NetworkState {
 fn the_state_beside_the_cases_is_the_one_that_its_network_writes() {
     let case = load(&repository("cases/network/hand-over.toml"), &Overrides::default()).unwrap().case;
     let Model::Network(wanted) = &case.model else { panic!("no network") };
-    let mut solver = network::setup::build_quasi_static(&case, wanted).unwrap();
+    let mut solver = meniscus_network::setup::build_quasi_static(&case, wanted).unwrap();
     while !solver.is_done() {
         solver.step(f64::INFINITY).unwrap();
     }

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use crate::support::program::{assert_code, meniscus, stderr, stdout};
 use crate::verify::{DISCS, case};
-use meniscus::case::load;
-use meniscus::input::Overrides;
 use meniscus::verify::choose::{Choice, choose};
 use meniscus::verify::subject::Subject;
+use meniscus_case::load;
+use meniscus_core::input::Overrides;
 
 /// The first row of a table by its heads.
 fn first_row(path: &Path) -> BTreeMap<String, String> {

@@ -2,19 +2,19 @@
 
 use std::path::Path;
 
-use meniscus::case::load;
-use meniscus::input::Overrides;
-use meniscus::math::Vec2;
-use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, Displacement};
-use meniscus::network::extract;
-use meniscus::network::graph::Pores;
 use meniscus::study;
 use meniscus::verify::choose::{Choice, ChoiceError, choose};
 use meniscus::verify::fluids::Fluids;
 use meniscus::verify::plan::{Plan, Planned, write};
 use meniscus::verify::subdomain::Subdomain;
 use meniscus::verify::subject::Subject;
+use meniscus_case::load;
+use meniscus_core::input::Overrides;
+use meniscus_core::math::Vec2;
+use meniscus_network::conductance::conductances;
+use meniscus_network::displacement::{Conditions, Displacement};
+use meniscus_network::extract;
+use meniscus_network::graph::Pores;
 
 /// A random pack between walls.
 const PACK: &str = "{ random-pack = { seed = 3, porosity = 0.6, radius = 1.0e-4, radius-deviation = 0.2, gap = 2.0e-5, \

@@ -120,7 +120,7 @@ fn items(path: &Path, bibliography: &str) -> Vec<Item> {
 /// The table of all citations.
 fn equations() -> String {
     let bibliography = text("references.bib");
-    let sources = ["src", "tests"].into_iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
+    let sources = ["src", "crates", "tests"].into_iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
     let all = sources.flat_map(|path| items(&path, &bibliography)).collect::<Vec<_>>();
     let (tests, mut items): (Vec<Item>, Vec<Item>) = all.into_iter().partition(|item| item.is_test);
     items.sort_by_key(|item| item.citations[0].order());

@@ -1,5 +1,5 @@
-//! The tables of keys in the reference come from the JSON schemas, and so from the comments on the types of `src/case`,
-//! `src/wetting` and `src/study`.
+//! The tables of keys in the reference come from the JSON schemas, and so from the comments on the types of `crates/case/src`,
+//! `crates/wetting/src` and `src/study`.
 //!
 //! A page holds blocks `<!-- keys: PATH -->` to `<!-- end of keys -->` with the keys of the table at PATH, those of tables within it
 //! included, unless they have a block of their own. The first block, of the whole file, has no path: every key is on the page.
@@ -169,7 +169,7 @@ fn written(page: &str, schema: &Value, folders: &[&str]) -> String {
     let path = |rest: &str| rest.split("-->").next().unwrap_or_default().trim().to_owned();
     let blocks: BTreeSet<String> = page.split("<!-- keys:").skip(1).map(path).collect();
     assert!(blocks.contains(""), "the page has no block for the whole file");
-    let options = text("src/geometry/import/options.rs");
+    let options = text("crates/drawings/src/import/options.rs");
     let mut keys = Keys { schema, source: source.collect(), options, blocks, described: BTreeMap::new() };
     filled(page, "keys", |path| {
         let (name, table) = keys.at(path);
@@ -180,7 +180,7 @@ fn written(page: &str, schema: &Value, folders: &[&str]) -> String {
 #[test]
 fn the_tables_of_keys_are_those_of_the_schemas() {
     let pages = [
-        ("docs/reference/case-file.md", meniscus::case::schema(), &["src/case", "src/wetting"][..]),
+        ("docs/reference/case-file.md", meniscus_case::schema(), &["crates/case/src", "crates/wetting/src"][..]),
         ("docs/reference/study-file.md", meniscus::study::schema(), &["src/study"]),
     ];
     for (path, schema, folders) in pages {

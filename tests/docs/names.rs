@@ -15,7 +15,8 @@ struct Row {
 
 /// The name that a line of an item holds.
 fn name_in(line: &str) -> Option<String> {
-    if let Some((field, _)) = line.strip_prefix("pub ").and_then(|rest| rest.split_once(':')) {
+    let of_field = line.strip_prefix("pub ").filter(|rest| !rest.starts_with("const "));
+    if let Some((field, _)) = of_field.and_then(|rest| rest.split_once(':')) {
         return (!line.ends_with('[') && !line.contains('[')).then(|| field.replace('_', "-"));
     }
     let literal = line.split('"').nth(1).filter(|_| !line.starts_with("Table {") && !line.starts_with("name:"))?;

@@ -4,14 +4,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-use meniscus::case::measures::{offers, offers_of_comparison};
-use meniscus::case::preset::{COLD, Preset, WARM};
-use meniscus::case::{load, schema};
-use meniscus::input::Overrides;
 use meniscus::run::setup;
-use meniscus::snapshot::Field;
-use meniscus::solver::Solver;
-use meniscus::table::Column;
+use meniscus_case::measures::{offers, offers_of_comparison};
+use meniscus_case::preset::{COLD, Preset, WARM};
+use meniscus_case::{load, schema};
+use meniscus_core::input::Overrides;
+use meniscus_core::snapshot::Field;
+use meniscus_core::solver::Solver;
+use meniscus_core::table::Column;
 
 use crate::generated::{as_code, compare, filled, first_sentence, table};
 use crate::keys::followed;
@@ -118,7 +118,7 @@ fn every_shape_and_its_keys_are_described() {
 fn every_wetting_law_is_described_with_its_source() {
     let rows = page("docs/numerics/wetting.md").rows();
     let told: BTreeMap<String, &str> = rows.iter().map(|row| (code(&row[0]).remove(0), row[2].as_str())).collect();
-    let laws = meniscus::wetting::laws();
+    let laws = meniscus_wetting::laws();
     for law in &laws {
         let name = format!("[sph.wetting.{}]", law.key);
         let remedy =
@@ -181,9 +181,9 @@ fn of_plane(page: &Page, title: &str) -> Vec<String> {
     names(&section(page, title)).into_iter().filter(|name| !OF_DEPTH_OR_FILMS.contains(&name.as_str())).collect()
 }
 
-/// The second words of the rows of a table in `src/sph/measures/chip.rs`: names of values of all of the depth.
+/// The second words of the rows of a table in `crates/sph/src/measures/chip.rs`: names of values of all of the depth.
 fn of_chip(table: &str) -> Vec<String> {
-    let source = text("src/sph/measures/chip.rs");
+    let source = text("crates/sph/src/measures/chip.rs");
     let rows = source.split(&format!("const {table}:")).nth(1).and_then(|rest| rest.split("];").next()).unwrap();
     let names: Vec<String> = rows.lines().filter_map(|row| row.split('"').nth(3)).map(str::to_owned).collect();
     assert!(names.len() > 3, "{rows}");
@@ -275,21 +275,22 @@ fn tells<'f>(rows: &[Vec<String>], files: impl Iterator<Item = (&'f str, &'f [Fi
 fn every_measure_is_described() {
     let mut there = BTreeSet::new();
     const OTHERS: [&str; 4] = [
-        "src/thin_film/measures.rs",
-        "src/network/measures.rs",
-        "src/network/dynamic/measures.rs",
+        "crates/film/src/measures.rs",
+        "crates/network/src/measures.rs",
+        "crates/network/src/dynamic/measures.rs",
         "src/run/compare/measures.rs",
     ];
     let others = OTHERS.map(|file| root().join(file));
-    let of_flows =
-        ["src/sph/measures", "src/benchmarks"].into_iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
+    let of_flows = ["crates/sph/src/measures", "crates/validation/src"]
+        .into_iter()
+        .flat_map(|folder| files(&root().join(folder), &["rs"]));
     for file in of_flows.chain(others) {
         let source = std::fs::read_to_string(file).unwrap();
         let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
         there.extend(calls.filter_map(|rest| rest.split('"').next().map(str::to_owned)));
     }
     // A network names the measures that take long in lists.
-    let source = std::fs::read_to_string(root().join("src/network/measures.rs")).unwrap();
+    let source = std::fs::read_to_string(root().join("crates/network/src/measures.rs")).unwrap();
     let lists = source.split(": [&str; ").skip(1).filter_map(|rest| rest.split_once("];"));
     there.extend(lists.flat_map(|(list, _)| list.split('"').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>()));
     there.extend(of_chip("MEASURES"));
@@ -302,7 +303,7 @@ fn every_measure_is_described() {
         offers(&loaded.case.model, None, false)
     });
     let known = known.chain(offers_of_comparison()).flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()));
-    let place = "the names that `[[expect]]` knows (src/case/measures.rs, src/case/measure_groups.rs)";
+    let place = "the names that `[[expect]]` knows (crates/case/src/measures.rs, crates/case/src/measure_groups.rs)";
     tells_all(&known.collect(), &there, place);
 }
 

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use meniscus::case::{self, Loaded};
-use meniscus::geometry::Geometry;
-use meniscus::geometry::import::Options;
-use meniscus::input::{InputError, Overrides};
-use meniscus::io::restart::{self, Saved};
 use meniscus::run::setup;
 use meniscus::study::load::load as load_study;
 use meniscus::study::runs::runs;
+use meniscus_case::Loaded;
+use meniscus_core::input::{InputError, Overrides};
+use meniscus_drawings::import::Options;
+use meniscus_geometry::Geometry;
+use meniscus_output::restart::{self, Saved};
 
 use crate::mutation::{Random, changed};
 use crate::places::without_place;
@@ -66,7 +66,7 @@ impl Bench {
             ("cases/thin-film", Kind::Case),
             ("cases/states", Kind::Start),
             ("geometries", Kind::Shapes),
-            ("tests/drawings", Kind::Shapes),
+            ("crates/drawings/tests/drawings", Kind::Shapes),
             ("studies", Kind::Study),
             ("studies/thin-film", Kind::Study),
             ("studies/validation", Kind::Study),
@@ -201,7 +201,7 @@ fn start(path: &Path, root: &Path) -> Outcome {
     };
     let set = Overrides::parse(&[format!("sph.initial.network=\"states/{name}\"")]).unwrap();
     let case = path.parent().unwrap().with_file_name(file);
-    match case::load(&case, &set) {
+    match meniscus_case::load(&case, &set) {
         Err(error) => {
             // The place of the mistake is that of the key; the message tells the line in the file. A message that is cut ends in dots.
             let has_line = |text: &str| {
@@ -218,7 +218,7 @@ fn start(path: &Path, root: &Path) -> Outcome {
 }
 
 fn case(path: &Path, root: &Path) -> Outcome {
-    match case::load(path, &Overrides::default()) {
+    match meniscus_case::load(path, &Overrides::default()) {
         Err(error) => refused(error, root),
         Ok(loaded) => checked(&loaded, path, root),
     }
@@ -227,7 +227,7 @@ fn case(path: &Path, root: &Path) -> Outcome {
 fn checked(loaded: &Loaded, path: &Path, root: &Path) -> Outcome {
     let again = path.with_file_name("again.toml");
     std::fs::write(&again, &loaded.resolved).unwrap();
-    match case::load(&again, &Overrides::default()) {
+    match meniscus_case::load(&again, &Overrides::default()) {
         Err(error) => return Outcome::Wrong(format!("resolved, it does not load: {}", error.render())),
         Ok(again) if again.resolved != loaded.resolved => {
             return Outcome::Wrong("resolved twice, it differs".to_owned());
@@ -247,7 +247,7 @@ fn shapes(path: &Path, unit: Option<&str>, root: &Path) -> Outcome {
     } else {
         Options { unit: unit.map(str::to_owned), ..Options::default() }
     };
-    let spec = match case::load_shapes(path, &options) {
+    let spec = match meniscus_case::load_shapes(path, &options) {
         Err(error) => return refused(error, root),
         Ok(read) => read.spec,
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use meniscus::input::{InputError, Mistake};
+use meniscus_core::input::{InputError, Mistake};
 
 /// Places in a shape file that have no number.
 const WITHOUT_NUMBER: [&str; 11] = [
@@ -27,7 +27,9 @@ const WITHOUT_NUMBER: [&str; 11] = [
 ];
 
 /// What is wrong with the options that a drawing is read with, and not in the file.
-const OF_OPTIONS: [&str; 4] = [
+const OF_OPTIONS: [&str; 5] = [
+    // A question, answered by an option; the outline in question follows.
+    "the drawing can be read in two ways: ",
     "the unit of the drawing is not known",
     "there is no unit `",
     "`unit` does not apply to",

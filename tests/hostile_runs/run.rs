@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use meniscus::case;
-use meniscus::input::{InputError, Overrides};
 use meniscus::run::execute::{Job, Mode, execute};
 use meniscus::run::report::Status;
 use meniscus::run::setup;
 use meniscus::run::simulation::{Progress, Watcher};
-use meniscus::snapshot::{Field, Snapshot, Values};
+use meniscus_case as case;
+use meniscus_core::input::{InputError, Overrides};
+use meniscus_core::snapshot::{Field, Snapshot, Values};
 
 use crate::places::without_place;
 use crate::seeds::is_small;

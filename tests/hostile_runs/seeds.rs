@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use meniscus::case::{self, Loaded};
-use meniscus::case::{Case, Model};
-use meniscus::input::Overrides;
 use meniscus::run::setup;
-use meniscus::wetting::{LawTable, laws};
+use meniscus_case::Loaded;
+use meniscus_case::{Case, Model};
+use meniscus_core::input::Overrides;
+use meniscus_wetting::{LawTable, laws};
 
 /// Particles or nodes that a case is to have, the fewest first.
 const TARGETS: [f64; 4] = [300.0, 600.0, 1000.0, 1600.0];
@@ -53,7 +53,7 @@ pub fn seeds() -> Vec<Seed> {
 
 /// A case with all that is filled in and with `more` values, with as coarse a spacing as it takes.
 fn small(path: &Path, more: &[String]) -> Option<String> {
-    let fine = case::load(path, &Overrides::default()).ok()?;
+    let fine = meniscus_case::load(path, &Overrides::default()).ok()?;
     if matches!(fine.case.model, Model::Network(_)) {
         return is_small(&fine.case).then_some(fine.resolved);
     }
@@ -61,7 +61,7 @@ fn small(path: &Path, more: &[String]) -> Option<String> {
     TARGETS.iter().find_map(|&count| {
         let spacing = format!("{key}={:e}", spacing(&fine.case, count));
         let overrides = Overrides::parse(&[more, &[spacing]].concat()).ok()?;
-        let loaded: Loaded = case::load(path, &overrides).ok()?;
+        let loaded: Loaded = meniscus_case::load(path, &overrides).ok()?;
         (setup::problems(&loaded.case).is_empty() && is_small(&loaded.case)).then_some(loaded.resolved)
     })
 }

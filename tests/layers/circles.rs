@@ -9,9 +9,22 @@ use crate::{Source, heads_behind, is_word, sources};
 /// For each node those that it imports outside of its tests.
 pub type Imports = BTreeMap<String, BTreeSet<String>>;
 
+/// A folder of the source: its package, and its path in there, empty for all of the package.
+type Folder<'s> = (&'s str, &'s str);
+
 /// The folders of the source, from the paths of their files.
-fn folders(sources: &[Source]) -> BTreeSet<&str> {
-    sources.iter().flat_map(|source| source.path.match_indices('/').map(|(at, _)| &source.path[..at])).collect()
+fn folders(sources: &[Source]) -> BTreeSet<Folder<'_>> {
+    let of_file = |source| {
+        let (package, inner): Folder<'_> = Source::place(source);
+        let ends = inner.match_indices('/').map(|(at, _)| at);
+        ends.chain([0]).map(move |end| (package, &inner[..end]))
+    };
+    sources.iter().flat_map(of_file).collect()
+}
+
+/// Whether a node is what the folder itself defines.
+fn is_root(name: &str) -> bool {
+    matches!(name, "mod" | "lib" | "main")
 }
 
 /// The first parts of the paths that begin with exactly `n` times `super::`.
@@ -23,13 +36,20 @@ fn heads_above(code: &str, n: usize) -> Vec<String> {
 }
 
 /// The imports between the files and subfolders of a folder.
-pub fn imports_within(folder: &str, sources: &[Source]) -> Imports {
+pub fn imports_within((package, folder): Folder<'_>, sources: &[Source]) -> Imports {
     let inside: Vec<(&Source, &str)> = sources
         .iter()
         .filter(|source| !source.is_of_tests())
-        .filter_map(|source| Some((source, source.path.strip_prefix(folder)?.strip_prefix('/')?)))
+        .filter(|source| source.place().0 == package)
+        .filter_map(|source| {
+            let inner = source.place().1.strip_prefix(folder)?;
+            Some((source, if folder.is_empty() { inner } else { inner.strip_prefix('/')? }))
+        })
         .collect();
-    let name = |inner: &str| inner.split('/').next().unwrap_or_default().trim_end_matches(".rs").to_owned();
+    let name = |inner: &str| {
+        let name = inner.split('/').next().unwrap_or_default().trim_end_matches(".rs");
+        if is_root(name) { "mod".to_owned() } else { name.to_owned() }
+    };
     let names: BTreeSet<String> = inside.iter().map(|(_, inner)| name(inner)).collect();
     let mut found = Imports::new();
     for (source, inner) in inside {
@@ -41,7 +61,8 @@ pub fn imports_within(folder: &str, sources: &[Source]) -> Imports {
             };
             names.iter().filter(leads_to).cloned().collect()
         } else {
-            let mut heads = heads_behind(&code, &format!("crate::{}::", folder.replace('/', "::")));
+            let within = if folder.is_empty() { String::new() } else { format!("{}::", folder.replace('/', "::")) };
+            let mut heads = heads_behind(&code, &format!("crate::{within}"));
             let depth = inner.matches('/').count() + usize::from(!inner.ends_with("mod.rs"));
             heads.extend(heads_above(&code, depth).into_iter().map(|head| (0, head)));
             let node = |head: String| if names.contains(&head) { head } else { "mod".to_owned() };
@@ -86,7 +107,8 @@ fn circles(imports: &Imports) -> BTreeSet<String> {
 fn no_folder_has_a_circle_of_imports() {
     let sources = sources();
     let found = folders(&sources).into_iter().flat_map(|folder| {
-        circles(&imports_within(folder, &sources)).into_iter().map(move |files| format!("src/{folder}: {files}"))
+        let found = circles(&imports_within(folder, &sources));
+        found.into_iter().map(move |files| format!("{}, {}: {files}", folder.0, folder.1))
     });
     let found: Vec<String> = found.collect();
     assert!(found.is_empty(), "circles of imports:\n{}", found.join("\n"));
@@ -96,13 +118,13 @@ fn no_folder_has_a_circle_of_imports() {
 fn a_circle_is_found_through_further_files_and_folders() {
     let source = |path: &str, code: &str| Source { path: path.to_owned(), lines: vec![code.to_owned()] };
     let sources = [
-        source("sph/mod.rs", "pub mod a;"),
-        source("sph/a.rs", "use super::b::B;"),
-        source("sph/b.rs", "use crate::sph::c::{C, D};"),
-        source("sph/c/mod.rs", "mod inner;"),
-        source("sph/c/inner.rs", "use super::super::a::A; use super::other::O;"),
-        source("sph/d.rs", "use super::a::A;"),
+        source("crates/sph/src/lib.rs", "pub mod a;"),
+        source("crates/sph/src/a.rs", "use super::b::B;"),
+        source("crates/sph/src/b.rs", "use crate::c::{C, D};"),
+        source("crates/sph/src/c/mod.rs", "mod inner;"),
+        source("crates/sph/src/c/inner.rs", "use super::super::a::A; use super::other::O;"),
+        source("crates/sph/src/d.rs", "use super::a::A;"),
     ];
-    assert_eq!(circles(&imports_within("sph", &sources)), BTreeSet::from(["a b c".to_owned()]));
-    assert_eq!(folders(&sources), BTreeSet::from(["sph", "sph/c"]));
+    assert_eq!(circles(&imports_within(("sph", ""), &sources)), BTreeSet::from(["a b c".to_owned()]));
+    assert_eq!(folders(&sources), BTreeSet::from([("sph", ""), ("sph", "c")]));
 }

@@ -1,6 +1,6 @@
-//! The layers of the source tree: low may not import high, and foreign libraries for one purpose keep to their places.
+//! The structure of the source beyond what Cargo says: within a package, no circles of imports; printing, files and libraries for one purpose in their places.
 //!
-//! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
+//! Which package may use which, and which library, is said by the manifests in `crates`. The sources are read as text: comments are cut off.
 
 mod circles;
 mod picture;
@@ -8,121 +8,51 @@ mod picture;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
-/// modules; `interface` and `analysis` are pure.
-const MAY_IMPORT: [(&str, &[&str]); 20] = [
-    ("math", &[]),
-    ("input", &["math"]),
-    ("snapshot", &["math"]),
-    ("diagram", &[]),
-    ("table", &[]),
-    ("solver", &["math", "snapshot", "diagram", "table"]),
-    ("geometry", &["math", "input", "snapshot"]),
-    ("interface", &["math", "snapshot", "geometry"]),
-    ("analysis", &["math", "snapshot", "interface"]),
-    ("wetting", &["input"]),
-    ("case", &["math", "input", "geometry", "wetting"]),
-    (
-        "network",
-        &["math", "geometry", "snapshot", "diagram", "table", "solver", "wetting", "case", "interface", "analysis"],
-    ),
-    ("sph", &["math", "geometry", "snapshot", "table", "solver", "wetting", "case", "interface", "analysis"]),
-    ("benchmarks", &["math", "solver", "case", "interface", "analysis", "sph"]),
-    ("thin_film", &["math", "snapshot", "diagram", "solver", "case", "analysis"]),
-    ("io", &["math", "snapshot", "diagram", "table", "solver"]),
-    (
-        "run",
-        &[
-            "math",
-            "input",
-            "geometry",
-            "snapshot",
-            "diagram",
-            "solver",
-            "case",
-            "analysis",
-            "network",
-            "sph",
-            "benchmarks",
-            "thin_film",
-            "io",
-        ],
-    ),
-    ("study", &["math", "diagram", "input", "case", "analysis", "io", "run"]),
-    ("verify", &["math", "input", "geometry", "case", "interface", "network", "io", "study"]),
-    (
-        "cli",
-        &[
-            "math", "input", "geometry", "snapshot", "solver", "wetting", "case", "analysis", "io", "run", "study",
-            "verify",
-        ],
-    ),
-];
-
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
 const ONE_PLACE: [(&str, &[&str]); 7] = [
-    ("println!", &["cli/"]),
-    ("eprintln!", &["cli/"]),
-    ("print!", &["cli/"]),
-    ("eprint!", &["cli/"]),
+    ("println!", &["src/cli/"]),
+    ("eprintln!", &["src/cli/"]),
+    ("print!", &["src/cli/"]),
+    ("eprint!", &["src/cli/"]),
     ("dbg!", &[]),
     // Pipes of other processes are called so too.
-    ("stdout", &["cli/", "study/child.rs"]),
-    ("stderr", &["cli/", "study/child.rs"]),
+    ("stdout", &["src/cli/", "src/study/child.rs"]),
+    ("stderr", &["src/cli/", "src/study/child.rs"]),
 ];
 
-/// Libraries for one purpose, with the files that may use them, by the beginning of their path.
-const PLACES: [(&str, &[&str]); 31] = [
-    ("ab_glyph", &["io/picture/"]),
-    ("base64", &["io/vtk/"]),
-    ("clap", &["cli/"]),
-    ("clap_complete", &["cli/"]),
-    ("clap_mangen", &["cli/"]),
-    ("cpu_time", &["run/processor_time.rs"]),
-    ("ctrlc", &["cli/"]),
-    ("dejavu", &["io/picture/"]),
-    ("delaunator", &["geometry/"]),
-    ("flate2", &["io/vtk/"]),
-    ("geo", &["geometry/"]),
-    ("geojson", &["geometry/"]),
-    ("indicatif", &["cli/"]),
-    ("lz4_flex", &["io/vtk/"]),
+/// Libraries of the program for one purpose, with the files that may use them, by the beginning of their path.
+const PLACES: [(&str, &[&str]); 13] = [
+    ("clap", &["src/cli/"]),
+    ("clap_complete", &["src/cli/"]),
+    ("clap_mangen", &["src/cli/"]),
+    ("cpu_time", &["src/run/processor_time.rs"]),
+    ("ctrlc", &["src/cli/"]),
+    ("indicatif", &["src/cli/"]),
     // Errors in input carry their place as `miette` wants it; only the command line prints them.
-    ("miette", &["cli/", "input/error.rs", "input/excerpt.rs"]),
-    ("mimalloc", &["main.rs"]),
-    ("parry2d_f64", &["geometry/"]),
-    ("plotters", &["io/axes.rs", "io/diagram.rs"]),
-    // Masks are read and written, pictures written.
-    ("png", &["geometry/export/mask.rs", "geometry/import/mask/", "io/picture/"]),
+    ("miette", &["src/cli/", "crates/core/src/input/error.rs", "crates/core/src/input/excerpt.rs"]),
+    ("mimalloc", &["src/main.rs"]),
     // Packs of grains, and throats by chance.
-    ("rand_chacha", &["geometry/pack/", "verify/choose.rs"]),
-    ("raw_cpuid", &["cli/"]),
-    ("roxmltree", &["geometry/"]),
-    ("signal_hook", &["cli/"]),
-    ("sobol_burley", &["study/sampling/"]),
-    ("statrs", &["study/sampling/"]),
-    ("strsim", &["input/suggest.rs"]),
-    ("svgtypes", &["geometry/"]),
-    ("tiff", &["geometry/"]),
-    ("tiny_skia", &["io/picture/"]),
-    ("vtkio", &["io/vtk.rs", "io/vtk/"]),
-    ("wkt", &["geometry/"]),
+    ("rand_chacha", &["crates/geometry/src/pack/", "src/verify/choose.rs"]),
+    ("raw_cpuid", &["src/cli/"]),
+    ("signal_hook", &["src/cli/"]),
+    ("sobol_burley", &["src/study/sampling/"]),
+    ("statrs", &["src/study/sampling/"]),
 ];
 
-/// Libraries for numbers, data and errors in general.
-const EVERYWHERE: [&str; 10] =
-    ["csv", "faer", "nalgebra", "postcard", "rayon", "schemars", "serde", "serde_json", "thiserror", "toml"];
+/// Packages without files, environment and processes.
+const PHYSICS: [&str; 5] = ["geometry", "wetting", "sph", "film", "validation"];
 
-/// A source file: its path below `src` and its lines without comments.
+/// A source file: its path below the root and its lines without comments.
 struct Source {
     path: String,
     lines: Vec<String>,
 }
 
 impl Source {
-    /// The module of the crate it belongs to: `sph` for `sph/poisson/solve.rs`, `math` for `math.rs`.
-    fn module(&self) -> &str {
-        self.path.split('/').next().unwrap_or_default().trim_end_matches(".rs")
+    /// The package that it belongs to, `meniscus` for the program, and its path below the source of it.
+    fn place(&self) -> (&str, &str) {
+        let of_crate = self.path.strip_prefix("crates/").and_then(|rest| rest.split_once("/src/"));
+        of_crate.unwrap_or_else(|| ("meniscus", self.path.trim_start_matches("src/")))
     }
 
     /// Whether it holds tests only.
@@ -136,18 +66,30 @@ impl Source {
         text.split("#[cfg(test)]").next().unwrap_or_default().to_owned()
     }
 
-    fn place(&self, line: usize) -> String {
-        format!("src/{}:{}", self.path, line + 1)
+    fn line(&self, number: usize) -> String {
+        format!("{}:{}", self.path, number + 1)
     }
 }
 
+/// The packages in `crates` by the names of their folders.
+fn packages() -> Vec<String> {
+    let entries = std::fs::read_dir(root().join("crates")).unwrap();
+    let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
 fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let folders = packages().into_iter().map(|name| root().join("crates").join(name).join("src"));
     let mut files = Vec::new();
-    collect(&root, &mut files);
+    folders.chain([root().join("src")]).for_each(|folder| collect(&folder, &mut files));
     files.sort();
     let source = |file: PathBuf| Source {
-        path: file.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"),
+        path: file.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/"),
         lines: std::fs::read_to_string(&file).unwrap().lines().map(|line| without_comment(line).to_owned()).collect(),
     };
     files.into_iter().map(source).collect()
@@ -191,15 +133,12 @@ fn holds(line: &str, word: &str) -> bool {
     })
 }
 
-/// The first parts of the paths behind each `crate::` of a file with their lines; `crate::{a::B, c}` has two.
-fn imports(source: &Source) -> Vec<(usize, String)> {
-    heads_behind(&source.lines.join("\n"), "crate::")
-}
-
 /// The first parts of the paths behind each `prefix` of a text with their lines.
 fn heads_behind(text: &str, prefix: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    for (at, path) in text.match_indices(prefix) {
+    // `$crate` names a macro of the package.
+    let is_path = |&(at, _): &(usize, &str)| !text[..at].ends_with('$');
+    for (at, path) in text.match_indices(prefix).filter(is_path) {
         let line = text[..at].matches('\n').count();
         let rest = &text[at + path.len()..];
         if let Some(group) = rest.strip_prefix('{') {
@@ -240,53 +179,31 @@ fn assert_none(violations: &[String]) {
     assert!(violations.is_empty(), "\n{}", violations.join("\n"));
 }
 
-#[test]
-fn low_layers_do_not_import_high_ones() {
-    let mut violations = Vec::new();
-    for source in sources().iter().filter(|source| !matches!(source.path.as_str(), "main.rs" | "lib.rs")) {
-        let module = source.module();
-        let Some((_, allowed)) = MAY_IMPORT.iter().find(|(name, _)| *name == module) else {
-            violations.push(format!("src/{}: the module `{module}` has no layer in tests/layers/main.rs", source.path));
-            continue;
-        };
-        for (line, import) in imports(source) {
-            if import != module && !allowed.contains(&import.as_str()) {
-                violations.push(format!("{}: `{module}` may not import `{import}`", source.place(line)));
-            }
-        }
-    }
-    assert_none(&violations);
-}
-
-/// What each module imports from others outside of its tests.
-fn imports_of_modules() -> picture::Imports {
-    let mut found = picture::Imports::new();
-    let is_module = |source: &&Source| !matches!(source.path.as_str(), "main.rs" | "lib.rs");
-    for source in sources().iter().filter(is_module) {
-        let of_module = found.entry(source.module().to_owned()).or_default();
-        if source.is_of_tests() {
-            continue;
-        }
-        let code = source.code();
-        of_module.extend(heads_behind(&code, "crate::").into_iter().map(|(_, head)| head));
-        of_module.remove(source.module());
-    }
-    let modules: BTreeSet<String> = found.keys().cloned().collect();
-    found.values_mut().for_each(|imported| imported.retain(|import| modules.contains(import)));
-    found
+/// The packages that each package uses, from its manifest.
+fn uses_of_packages() -> picture::Imports {
+    let read = |manifest: PathBuf| {
+        let table: toml::Table = std::fs::read_to_string(manifest).unwrap().parse().unwrap();
+        let used = table["dependencies"].as_table().unwrap().keys();
+        used.filter_map(|name| name.strip_prefix("meniscus-").map(str::to_owned)).collect::<BTreeSet<_>>()
+    };
+    let of_crates = packages().into_iter().map(|name| {
+        let manifest = root().join("crates").join(&name).join("Cargo.toml");
+        (name, read(manifest))
+    });
+    of_crates.chain([("meniscus".to_owned(), read(root().join("Cargo.toml")))]).collect()
 }
 
 /// `MENISCUS_BLESS=1 cargo test --release --test layers` draws them anew.
 #[test]
 fn the_pictures_of_the_structure_are_those_of_the_source() {
     let sources = sources();
-    let inside = ["sph", "network", "thin_film", "geometry"].map(|folder| {
-        let mut imports = circles::imports_within(folder, &sources);
+    let inside = ["sph", "network", "film", "geometry"].map(|package| {
+        let mut imports = circles::imports_within((package, ""), &sources);
         imports.remove("mod");
         imports.values_mut().for_each(|imported| imported.retain(|import| import != "mod"));
-        (format!("structure-{folder}.svg"), picture::svg(&imports, false))
+        (format!("structure-{package}.svg"), picture::svg(&imports, false))
     });
-    let whole = ("structure.svg".to_owned(), picture::svg(&imports_of_modules(), true));
+    let whole = ("structure.svg".to_owned(), picture::svg(&uses_of_packages(), true));
     for (name, drawn) in inside.into_iter().chain([whole]) {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/figures").join(&name);
         if std::env::var_os("MENISCUS_BLESS").is_some() {
@@ -300,36 +217,23 @@ fn the_pictures_of_the_structure_are_those_of_the_source() {
     }
 }
 
-#[test]
-fn no_file_climbs_out_of_its_module_by_super() {
-    let mut violations = Vec::new();
-    for source in sources() {
-        let folders = source.path.matches('/').count();
-        let own = if source.path.ends_with("mod.rs") { folders - 1 } else { folders };
-        let mut inner = 0;
-        for (number, line) in source.lines.iter().enumerate() {
-            inner += usize::from(line.trim_start().starts_with("mod ") && line.trim_end().ends_with('{'));
-            let longest = (1..=8).rev().find(|&n| line.contains(&"super::".repeat(n))).unwrap_or(0);
-            if longest > own + inner {
-                violations.push(format!("{}: `super` leads to the root of the crate", source.place(number)));
-            }
-        }
-    }
-    assert_none(&violations);
-}
-
 /// What the solver takes from a case as it is: plain tables of numbers and words.
 const TABLES: [&str; 6] = ["Fluid", "LineDelta", "Numerics", "SurfaceForce", "ViscousStep", "ViscousTerm"];
 
 #[test]
 fn beside_its_setup_the_solver_sees_plain_tables_of_the_case_only() {
     let mut violations = Vec::new();
-    for source in sources().iter().filter(|source| source.module() == "sph" && !source.path.starts_with("sph/setup/")) {
-        for (number, line) in source.lines.iter().enumerate().filter(|(_, line)| line.contains("crate::case")) {
-            let (_, names) = line.split_once("crate::case::").unwrap_or_default();
+    let is_of_solver = |source: &&Source| {
+        let (package, inner) = source.place();
+        package == "sph" && !inner.starts_with("setup/")
+    };
+    for source in sources().iter().filter(is_of_solver) {
+        for (number, line) in source.lines.iter().enumerate().filter(|(_, line)| line.contains("meniscus_case")) {
+            let (_, names) = line.split_once("meniscus_case::").unwrap_or_default();
+            let names = names.split(" as ").next().unwrap_or_default();
             let mut names = names.split(|c| !is_word(c)).filter(|name| !name.is_empty());
             if !line.starts_with("use ") || names.any(|name| !TABLES.contains(&name)) {
-                violations.push(format!("{}: beyond the tables {TABLES:?}: {}", source.place(number), line.trim()));
+                violations.push(format!("{}: beyond the tables {TABLES:?}: {}", source.line(number), line.trim()));
             }
         }
     }
@@ -350,7 +254,7 @@ fn foreign_libraries_and_printing_keep_to_their_place() {
             let words = ONE_PLACE.into_iter().filter(|(word, _)| holds(line, word));
             for (word, places) in words.chain(PLACES.into_iter().filter(|(library, _)| uses(line, library))) {
                 if !places.iter().any(|place| source.path.starts_with(place)) {
-                    violations.push(format!("{}: `{word}` belongs to {places:?}", source.place(number)));
+                    violations.push(format!("{}: `{word}` belongs to {places:?}", source.line(number)));
                 }
             }
         }
@@ -359,31 +263,12 @@ fn foreign_libraries_and_printing_keep_to_their_place() {
 }
 
 #[test]
-fn every_foreign_library_has_a_place_or_is_for_all() {
-    let manifest = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")).unwrap();
-    let is_table = |line: &str| line.ends_with("dependencies]") && !line.contains("dev-");
-    let mut in_table = false;
-    for line in manifest.lines() {
-        in_table = if line.starts_with('[') { is_table(line) } else { in_table };
-        let Some((library, _)) = line.split_once(" = ").filter(|_| in_table && !line.starts_with('[')) else {
-            continue;
-        };
-        let library = library.replace('-', "_");
-        let has_place = PLACES.iter().any(|(name, _)| *name == library) || EVERYWHERE.contains(&library.as_str());
-        assert!(has_place, "`{library}` is neither in PLACES nor in EVERYWHERE of tests/layers/main.rs");
-    }
-}
-
-#[test]
 fn the_physics_touches_no_file() {
     let mut violations = Vec::new();
-    for source in sources()
-        .iter()
-        .filter(|source| matches!(source.module(), "math" | "interface" | "analysis" | "sph" | "benchmarks"))
-    {
+    for source in sources().iter().filter(|source| PHYSICS.contains(&source.place().0)) {
         for (number, line) in source.lines.iter().enumerate() {
             if ["std::fs", "std::io", "std::env", "std::process"].iter().any(|name| line.contains(name)) {
-                violations.push(format!("{}: {}", source.place(number), line.trim()));
+                violations.push(format!("{}: {}", source.line(number), line.trim()));
             }
         }
     }
@@ -398,9 +283,8 @@ fn the_reader_of_imports_reads_what_rust_reads() {
         "    solver};",
         "let a = \"//\"; crate::sph::x()",
     ];
-    let source =
-        Source { path: "a.rs".into(), lines: lines.iter().map(|line| without_comment(line).to_owned()).collect() };
-    let found: Vec<_> = imports(&source).into_iter().map(|(line, head)| format!("{line} {head}")).collect();
+    let found = heads_behind(&lines.map(without_comment).join("\n"), "crate::");
+    let found: Vec<_> = found.into_iter().map(|(line, head)| format!("{line} {head}")).collect();
     assert_eq!(found, ["0 math", "1 io", "1 run", "1 solver", "3 sph"]);
     assert!(
         holds("    println!(\"a\")", "println!") && !holds("eprintln!()", "println!") && !holds("overclap", "clap")

@@ -1,5 +1,5 @@
-//! The modules of the crate, or the files and folders of one of its folders, as a picture: a module lies above all that it imports, an arrow leads to what it imports and no other
-//! module on the way imports for it.
+//! The packages, or the files and folders of one of them, as a picture: each lies above all that it uses, an arrow leads to what it uses and nothing else
+//! on the way uses for it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -14,12 +14,12 @@ const GAP: f64 = 24.0;
 const LETTER: f64 = 8.0;
 const RIM: f64 = 16.0;
 
-/// Modules between which the data passes and those around them, by their colors.
+/// Packages between which the data passes and those around them, by their colors.
 const COLORS: [(&str, &[&str]); 4] = [
-    ("#cfe3f5", &["input", "geometry", "interface", "analysis", "wetting", "case"]),
-    ("#f7d9b8", &["sph", "thin_film", "network", "benchmarks"]),
-    ("#d5ecd0", &["run", "study", "verify", "cli"]),
-    ("#e8e8e8", &["math", "diagram", "table", "snapshot", "solver", "io"]),
+    ("#cfe3f5", &["geometry", "drawings", "wetting", "case"]),
+    ("#f7d9b8", &["sph", "film", "network", "validation"]),
+    ("#d5ecd0", &["meniscus"]),
+    ("#e8e8e8", &["core", "output"]),
 ];
 
 /// The modules that `module` leads to, itself left out.
@@ -48,8 +48,8 @@ fn rows(imports: &Imports) -> Vec<Vec<String>> {
     rows
 }
 
-/// The picture as SVG, in the colors of the modules of the crate or in one.
-pub fn svg(imports: &Imports, is_crate: bool) -> String {
+/// The picture as SVG, in the colors of the packages or in one.
+pub fn svg(imports: &Imports, is_whole: bool) -> String {
     let mut rows = rows(imports);
     rows.reverse();
     let longest = imports.keys().map(String::len).max().unwrap_or(0) as f64;
@@ -97,7 +97,7 @@ pub fn svg(imports: &Imports, is_crate: bool) -> String {
         );
     }
     for (module, [x, y]) in &place {
-        let is_in = |(_, modules): &&(&str, &[&str])| is_crate && modules.contains(&module.as_str());
+        let is_in = |(_, modules): &&(&str, &[&str])| is_whole && modules.contains(&module.as_str());
         let color = COLORS.iter().find(is_in).map_or("#f4f4f4", |it| it.0);
         let _ = writeln!(
             svg,

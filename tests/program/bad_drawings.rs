@@ -5,8 +5,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use meniscus::case::load_shapes;
-use meniscus::geometry::import::Options;
+use meniscus_case::load_shapes;
+use meniscus_drawings::import::Options;
 
 /// The bytes of a text with `\xff` for a byte.
 fn bytes(text: &str) -> Vec<u8> {

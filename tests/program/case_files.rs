@@ -9,10 +9,10 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use meniscus::case::{Facts, check_against, load, load_default, load_shapes, starter_case};
-use meniscus::geometry::import::Options;
-use meniscus::input::{InputError, Overrides};
 use meniscus::run::setup::problems;
+use meniscus_case::{Facts, check_against, load, load_default, load_shapes, starter_case};
+use meniscus_core::input::{InputError, Overrides};
+use meniscus_drawings::import::Options;
 use proptest::prelude::*;
 
 const GOOD: &str = include_str!("../bad-input/good-case.toml");
@@ -28,7 +28,7 @@ fn files(name: &str, extension: &str) -> Vec<PathBuf> {
     files
 }
 
-fn load_case_text(text: &str, overrides: &Overrides) -> Result<meniscus::case::Loaded, InputError> {
+fn load_case_text(text: &str, overrides: &Overrides) -> Result<meniscus_case::Loaded, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.toml");
     std::fs::write(&path, text).unwrap();
@@ -187,7 +187,7 @@ fn the_starter_case_the_good_case_and_the_built_in_case_load() {
     assert_eq!(on_disk.sources.len(), 2);
 }
 
-fn set(values: &[&str]) -> Result<meniscus::case::Loaded, InputError> {
+fn set(values: &[&str]) -> Result<meniscus_case::Loaded, InputError> {
     load_case_text(GOOD, &Overrides::parse(values)?)
 }
 
@@ -287,7 +287,7 @@ fn the_fancy_report_points_at_the_value() {
 fn a_throat_that_is_not_resolved_and_a_drop_in_the_solid_are_placed_in_the_case_file() {
     let loaded = set(&[]).unwrap();
     let facts = Facts {
-        throat: Some((5.0e-5, meniscus::math::Vec2::zeros())),
+        throat: Some((5.0e-5, meniscus_core::math::Vec2::zeros())),
         wall_distance: &|_| -1.0,
         in_initial_shape: &|_, point| point.norm() < 2.0e-4,
     };
@@ -297,7 +297,7 @@ fn a_throat_that_is_not_resolved_and_a_drop_in_the_solid_are_placed_in_the_case_
     {
         assert!(error.contains(part), "{error}");
     }
-    let fine = Facts { throat: Some((1.0e-3, meniscus::math::Vec2::zeros())), wall_distance: &|_| 1.0, ..facts };
+    let fine = Facts { throat: Some((1.0e-3, meniscus_core::math::Vec2::zeros())), wall_distance: &|_| 1.0, ..facts };
     assert!(loaded.refuse(check_against(&loaded.case, &fine)).is_ok());
 }
 
@@ -315,7 +315,7 @@ fn the_schema_has_a_description_for_every_key() {
         }
     }
     let mut found = Vec::new();
-    undescribed(&meniscus::case::schema(), "", &mut found);
+    undescribed(&meniscus_case::schema(), "", &mut found);
     assert_eq!(found, Vec::<String>::new());
 }
 

@@ -7,9 +7,9 @@ use std::process::Command;
 
 use crate::support::program::SMALL;
 use crate::support::python::{interpreter, root, run};
-use meniscus::case::{load, schema};
-use meniscus::geometry::spec::ShapeSpec;
-use meniscus::input::Overrides;
+use meniscus_case::{load, schema};
+use meniscus_core::input::Overrides;
+use meniscus_geometry::spec::ShapeSpec;
 use serde_json::Value;
 
 /// What the schema says of each file: `valid`, or where it is wrong.
@@ -47,7 +47,7 @@ fn cases() -> Vec<PathBuf> {
 fn the_schema_accepts_every_case_and_the_starter() {
     let folder = tempfile::tempdir().unwrap();
     let starter = folder.path().join("starter.toml");
-    std::fs::write(&starter, meniscus::case::starter_case()).unwrap();
+    std::fs::write(&starter, meniscus_case::starter_case()).unwrap();
     // With every value present, also the ones that are defaults.
     let resolved = folder.path().join("resolved.toml");
     std::fs::write(&resolved, load(&cases()[0], &Overrides::default()).unwrap().resolved).unwrap();

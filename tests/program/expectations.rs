@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use meniscus::case::load;
-use meniscus::case::measures::offers;
-use meniscus::input::Overrides;
+use meniscus_case::load;
+use meniscus_case::measures::offers;
+use meniscus_core::input::Overrides;
 
 use crate::support::program::{assert_code, folder_with_small_case, meniscus, report};
 use crate::support::python::root;

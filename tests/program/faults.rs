@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 use crate::support::program::{
     assert_code, assert_same_files, command, files, folder_with_small_case, meniscus, stderr,
 };
-use meniscus::case::load;
-use meniscus::input::Overrides;
 use meniscus::run::setup;
+use meniscus_case::load;
+use meniscus_core::input::Overrides;
 
 /// A drop with many records of every kind, some tenths of a second long.
 const RUN: [&str; 8] = [
@@ -259,11 +259,11 @@ fn results_that_cannot_be_printed_are_an_error_and_a_closed_pipe_is_none() {
 /// Cases whose particles are packed to walls and to an interface, one of them with a given flow.
 #[test]
 fn a_solver_that_takes_up_a_state_packs_nothing_and_goes_on_with_the_same_bits() {
-    let none = meniscus::solver::Series::default();
+    let none = meniscus_core::solver::Series::default();
     for (name, spacing) in [("drop-on-disc", 3.0), ("four-discs", 1.5), ("detachment", 2.0)] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
         let given = load(&path, &Overrides::default()).unwrap().case;
-        let meniscus::case::Model::Sph(sph) = &given.model else { panic!("{name}") };
+        let meniscus_case::Model::Sph(sph) = &given.model else { panic!("{name}") };
         let coarse = format!("sph.spacing={:e}", spacing * sph.spacing);
         let case = load(&path, &Overrides::parse(&[coarse]).unwrap()).unwrap().case;
         let mut told = 0;
@@ -279,7 +279,7 @@ fn a_solver_that_takes_up_a_state_packs_nothing_and_goes_on_with_the_same_bits()
         }
         assert!(unbroken.state() == resumed.state(), "{name}: the states differ");
         // Drifts are counted from time zero, which the resumed solver has not seen.
-        let values = |solver: &dyn meniscus::solver::Solver| {
+        let values = |solver: &dyn meniscus_core::solver::Solver| {
             solver
                 .measures(&none)
                 .iter()

@@ -6,9 +6,9 @@
 
 use std::path::Path;
 
-use meniscus::input::InputError;
 use meniscus::study::load::load;
 use meniscus::study::runs::{plan, runs};
+use meniscus_core::input::InputError;
 
 /// Longest message in a snippet.
 const LONGEST: usize = 90;

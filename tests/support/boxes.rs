@@ -1,7 +1,7 @@
 //! Boxes of 1 mm with at most 300 particles, walls included: their pressure is solved directly, so that two runs of the same problem
 //! in other words differ by rounding only.
 
-use meniscus::sph::flow::Flow;
+use meniscus_sph::flow::Flow;
 
 /// Particles along a side of the box of 1 mm.
 const SPACING: &str = "1.0e-4";

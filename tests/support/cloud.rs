@@ -1,14 +1,14 @@
 //! A periodic box of particles on a lattice, in order or shaken, with all that the terms of the method need.
 #![allow(dead_code, reason = "each test file and benchmark uses its own part")]
 
-use meniscus::math::{Bounds, Vec2};
-use meniscus::sph::domain::Domain;
-use meniscus::sph::fill::Lattice;
-use meniscus::sph::images::Images;
-use meniscus::sph::kernel::WendlandC2;
-use meniscus::sph::pairs::Pairs;
-use meniscus::sph::poisson::{Matrix, assemble};
-use meniscus::sph::terms::density;
+use meniscus_core::math::{Bounds, Vec2};
+use meniscus_sph::domain::Domain;
+use meniscus_sph::fill::Lattice;
+use meniscus_sph::images::Images;
+use meniscus_sph::kernel::WendlandC2;
+use meniscus_sph::pairs::Pairs;
+use meniscus_sph::poisson::{Matrix, assemble};
+use meniscus_sph::terms::density;
 
 pub use super::dice::Dice;
 

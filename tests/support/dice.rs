@@ -1,8 +1,8 @@
 //! Numbers that look random and are the same on every machine, and discs at such places.
 #![allow(dead_code, reason = "each test file and benchmark uses its own part")]
 
-use meniscus::geometry::spec::Disc;
-use meniscus::math::Vec2;
+use meniscus_core::math::Vec2;
+use meniscus_geometry::spec::Disc;
 
 /// The generator of Knuth's MMIX.
 pub struct Dice(u64);

@@ -5,7 +5,6 @@ pub mod boxes;
 pub mod cloud;
 pub mod dice;
 pub mod files;
-pub mod films;
 pub mod flow;
 pub mod packs;
 pub mod program;

@@ -1,6 +1,6 @@
 //! Random packs of grains, the same for the same seed on every machine.
 
-use meniscus::geometry::spec::{Capsule, Disc, Polygon, Rectangle, ShapeSpec};
+use meniscus_geometry::spec::{Capsule, Disc, Polygon, Rectangle, ShapeSpec};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

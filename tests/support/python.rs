@@ -5,9 +5,10 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Root of the package.
+/// Root of the workspace.
 pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().find(|folder| folder.join("Cargo.lock").is_file()).unwrap_or(package)
 }
 
 /// What the scripts in `postprocess`, their tests and those of the Python package need, one after the other. That of networks names all that is needed
@@ -50,7 +51,6 @@ pub fn package_interpreter() -> PathBuf {
             "--force-reinstall",
             "--no-build-isolation",
         ])
-        .arg("--config-settings=build-args=--features as-tested")
         .arg(root());
     // The backend of the build is started by its name.
     let folders = std::env::var_os("PATH").unwrap_or_default();

@@ -1,4 +1,4 @@
-"""The output folder of a network, made from the reference figures of the pack in tests/drawings: no solver is needed.
+"""The output folder of a network, made from the reference figures of the pack in crates/drawings/tests/drawings: no solver is needed.
 
 Drainage from the left wall to the right one through bursts only, without trapping, by a loop over all throats.
 """
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-DRAWINGS = Path(__file__).parents[3] / "tests" / "drawings"
+DRAWINGS = Path(__file__).parents[3] / "crates" / "drawings" / "tests" / "drawings"
 TENSION = 0.03
 VISCOSITY = 1e-3
 

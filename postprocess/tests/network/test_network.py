@@ -1,4 +1,4 @@
-"""OpenPNM and PoreSpy on the network of the pack in tests/drawings. Needs the packages of requirements-network.txt."""
+"""OpenPNM and PoreSpy on the network of the pack in crates/drawings/tests/drawings. Needs the packages of requirements-network.txt."""
 
 import json
 import sys

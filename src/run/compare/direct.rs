@@ -6,19 +6,19 @@ use super::comparison::Side;
 use super::pair::{CompareError, Task};
 use super::states::States;
 use super::track::{Grid, Record, Track};
-use crate::case::network::state::NetworkState;
-use crate::case::{Case, FluidPhase};
-use crate::io::FileError;
-use crate::math::Vec2;
 use crate::run::execute::{Job, Mode, RunError, case_hash, execute};
 use crate::run::folder;
 use crate::run::folder_error::FolderError;
 use crate::run::report::{Report, Status};
 use crate::run::setup;
 use crate::run::simulation::{Progress, Watcher};
-use crate::snapshot::{Snapshot, Values};
-use crate::solver::Solver;
-use crate::sph::measures::open::{DRIVING_PRESSURE, PRESSURE_DIFFERENCE};
+use meniscus_case::network::state::NetworkState;
+use meniscus_case::{Case, FluidPhase};
+use meniscus_core::math::Vec2;
+use meniscus_core::snapshot::{Snapshot, Values};
+use meniscus_core::solver::Solver;
+use meniscus_output::FileError;
+use meniscus_sph::measures::open::{DRIVING_PRESSURE, PRESSURE_DIFFERENCE};
 
 /// Number of the non-wetting phase in the field `phase`; the wetting one is 0.
 const NON_WETTING: i64 = 1;

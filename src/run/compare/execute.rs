@@ -13,7 +13,7 @@ use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::processor_time::ProcessorTime;
 use crate::run::report::{Machine, Reached, Report, SolverReport, Status, WallTime, readings};
 use crate::run::simulation::Watcher;
-use crate::solver::{Clock, Series};
+use meniscus_core::solver::{Clock, Series};
 
 /// Why a comparison has no report.
 #[derive(Debug, thiserror::Error)]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::comparison::Comparison;
 use super::page;
-use crate::io::{FileError, atomic, diagram};
+use meniscus_output::{FileError, atomic, diagram};
 
 /// The page.
 pub(crate) const PAGE: &str = "compare.html";

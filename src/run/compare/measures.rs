@@ -1,7 +1,7 @@
 //! The numbers of a comparison, as measures of a run.
 
 use super::comparison::{Comparison, Side};
-use crate::solver::{self, Measure};
+use meniscus_core::solver::{self, Measure};
 
 /// Those of both together, then each of the network and of the direct simulation.
 pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {

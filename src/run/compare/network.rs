@@ -3,17 +3,17 @@
 use super::comparison::Side;
 use super::pair::CompareError;
 use super::track::{Grid, Record, Track};
-use crate::case::network::PoreNetwork;
-use crate::case::network::state::NetworkState;
-use crate::case::{self, Case};
-use crate::geometry::curve::Curve;
-use crate::math::Vec2;
-use crate::network::displacement::Phase;
-use crate::network::setup;
-use crate::network::solver::NetworkSolver;
-use crate::network::state;
 use crate::run::setup::SetupError;
-use crate::solver::{Series, Solver};
+use meniscus_case::network::PoreNetwork;
+use meniscus_case::network::state::NetworkState;
+use meniscus_case::{self, Case};
+use meniscus_core::math::Vec2;
+use meniscus_core::solver::{Series, Solver};
+use meniscus_geometry::curve::Curve;
+use meniscus_network::displacement::Phase;
+use meniscus_network::setup;
+use meniscus_network::solver::NetworkSolver;
+use meniscus_network::state;
 
 /// The present state; `None` if there is no displacement.
 pub(crate) fn state(solver: &NetworkSolver) -> Option<NetworkState> {
@@ -101,7 +101,9 @@ pub(crate) fn track_in_time(
 
 /// The elements that are open at the outlet.
 pub(crate) fn outlet_elements(state: &NetworkState) -> Vec<usize> {
-    let Some(side) = state.sides.iter().position(|&side| side == case::Side::Outlet) else { return Vec::new() };
+    let Some(side) = state.sides.iter().position(|&side| side == meniscus_case::Side::Outlet) else {
+        return Vec::new();
+    };
     let [min, max] = state.domain_m.map(Vec2::from);
     let (axis, at) = (side / 2, if side.is_multiple_of(2) { min[side / 2] } else { max[side / 2] });
     // Openings lie on the side, within rounding errors.

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::comparison::{Comparison, Side};
-use crate::diagram::{Diagram, Stroke, Trace};
-use crate::io::diagram;
-use crate::io::html::{self, escaped};
 use crate::run::pressure_curves::{LABELS, TITLE};
+use meniscus_core::diagram::{Diagram, Stroke, Trace};
+use meniscus_output::diagram;
+use meniscus_output::html::{self, escaped};
 
 /// The page as HTML.
 pub(crate) fn page(comparison: &Comparison) -> String {

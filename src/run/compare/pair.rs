@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::case::network::NetworkDisplacement;
-use crate::case::{Case, Model};
-use crate::input::Problem;
 use crate::run::execute::{Mode, RunError};
 use crate::run::setup::SetupError;
-use crate::solver::SolverError;
+use meniscus_case::network::NetworkDisplacement;
+use meniscus_case::{Case, Model};
+use meniscus_core::input::Problem;
+use meniscus_core::solver::SolverError;
 
 /// A network and a direct simulation to compare.
 #[derive(Debug, Clone, Copy)]

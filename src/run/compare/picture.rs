@@ -4,11 +4,11 @@
 use std::fmt::Write;
 
 use super::track::Grid;
-use crate::case::FluidPhase;
-use crate::diagram::colors;
-use crate::io::picture::{length_text, round_length};
-use crate::math::Vec2;
-use crate::snapshot::Lines;
+use meniscus_case::FluidPhase;
+use meniscus_core::diagram::colors;
+use meniscus_core::math::Vec2;
+use meniscus_core::snapshot::Lines;
+use meniscus_output::picture::{length_text, round_length};
 
 /// Width of a map in pixels of the page, and the gap between both.
 const WIDTH: f64 = 468.0;

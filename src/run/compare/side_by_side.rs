@@ -7,14 +7,14 @@ use super::pair::{CompareError, Pair, Task};
 use super::picture::Maps;
 use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
-use crate::case::network::PoreNetwork;
-use crate::case::network::state::NetworkState;
-use crate::case::{Case, FluidPhase, Model};
-use crate::geometry::elements::Elements;
-use crate::network::solver::NetworkSolver;
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
-use crate::solver::Solver;
+use meniscus_case::network::PoreNetwork;
+use meniscus_case::network::state::NetworkState;
+use meniscus_case::{Case, FluidPhase, Model};
+use meniscus_core::solver::Solver;
+use meniscus_geometry::elements::Elements;
+use meniscus_network::solver::NetworkSolver;
 
 /// Saturations at which both are drawn.
 const PICTURES: usize = 4;
@@ -66,7 +66,7 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
         return Err(CompareError::NoDirect);
     }
     let solver =
-        crate::network::setup::build_quasi_static(pair.network, &without_time(wanted)).map_err(SetupError::from)?;
+        meniscus_network::setup::build_quasi_static(pair.network, &without_time(wanted)).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
     if let Some(misfit) = state.misfit(&pair.direct.geometry) {
         return Err(CompareError::OtherGeometry(misfit));

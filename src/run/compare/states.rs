@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::track::{Grid, Record};
-use crate::io::FileError;
-use crate::io::journal::{Journal, Mark};
+use meniscus_output::FileError;
+use meniscus_output::journal::{Journal, Mark};
 
 /// Name of the file.
 const STATES: &str = "direct-states.jsonl";
@@ -111,7 +111,7 @@ fn content(path: &Path, what: &str) -> FileError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Bounds, Vec2};
+    use meniscus_core::math::{Bounds, Vec2};
 
     fn grid(cells: usize) -> Grid {
         let bounds = Bounds { min: Vec2::zeros(), max: Vec2::new(1.0, 1.0) };

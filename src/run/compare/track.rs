@@ -1,8 +1,8 @@
 //! A displacement, record by record, on the cells on which both are compared.
 
 use super::comparison::Side;
-use crate::geometry::elements::Elements;
-use crate::math::{Bounds, Vec2};
+use meniscus_core::math::{Bounds, Vec2};
+use meniscus_geometry::elements::Elements;
 
 /// Cells along the longer side of the domain on which phases are compared.
 const CELLS: f64 = 240.0;

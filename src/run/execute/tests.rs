@@ -3,8 +3,8 @@
 use super::super::mock::{Interrupter, MockSolver, case};
 use super::files::files;
 use super::*;
-use crate::case::SteadyStop;
 use crate::run::simulation::Unwatched;
+use meniscus_case::SteadyStop;
 
 fn job<'a>(case: &'a Case, folder: &Path, mode: Mode) -> Job<'a> {
     Job { case, resolved: "format = 1\n", folder: folder.to_path_buf(), mode }
@@ -65,7 +65,7 @@ fn a_steady_run_ends_early_with_all_its_records() {
     assert_eq!(report["measures"]["steady-at-s"]["value"], 0.24);
     assert_eq!(report["steady"]["at-s"], 0.24);
     assert_eq!(report["steady"]["quantities"][0]["column"], "max_speed_m_per_s");
-    assert_eq!(crate::io::restart::load(folder.path()).unwrap().time, 0.24);
+    assert_eq!(meniscus_output::restart::load(folder.path()).unwrap().time, 0.24);
     assert!(std::fs::read_to_string(folder.path().join("particles.pvd")).unwrap().contains("timestep=\"0.24\""));
     // There is nothing left to do, and nothing is changed.
     let before = files(folder.path());
@@ -154,7 +154,7 @@ fn a_record_that_cannot_be_written_stops_the_run_with_a_report_that_says_so() {
     assert!(error.contains("grid") && error.contains("--out DIR"), "{error}");
     assert_eq!(json(folder.path())["status"], "failed");
     assert_eq!(json(folder.path())["error"], error);
-    assert_eq!(crate::io::restart::load(folder.path()).unwrap().time, 0.0);
+    assert_eq!(meniscus_output::restart::load(folder.path()).unwrap().time, 0.0);
 }
 
 #[cfg(unix)]

@@ -5,14 +5,14 @@ use std::path::Path;
 use super::engine::Engine;
 use super::statistics::{Group, SHARE_HEADS, SHARES, full};
 use super::store::Done;
-use crate::analysis::samples::{mean, quantile};
-use crate::diagram::{Diagram, Stroke, Trace};
-use crate::io::diagram::svg;
-use crate::io::{FileError, atomic};
 use crate::run::ensemble::{Map, Observed, SATURATIONS, write_map};
 use crate::run::pressure_curves::{LABELS, TITLE};
 use crate::study::definition::Sampling;
 use crate::study::table::Table;
+use meniscus_core::diagram::{Diagram, Stroke, Trace};
+use meniscus_geometry::analysis::samples::{mean, quantile};
+use meniscus_output::diagram::svg;
+use meniscus_output::{FileError, atomic};
 
 /// The figures of a group on the page.
 #[derive(Debug, Clone, Default)]

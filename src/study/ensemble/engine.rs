@@ -8,12 +8,12 @@ use rayon::prelude::*;
 
 use super::plan::{Ensemble, PlannedSample};
 use super::store::{self, Done};
-use crate::io::FileError;
 use crate::run::ensemble::{Map, Observed};
 use crate::run::report::{Reading, Status};
 use crate::study::definition::Study;
 use crate::study::folder::StudyFolder;
 use crate::study::results::{RunReport, RunResult, RunState, Total, Unknowns};
+use meniscus_output::FileError;
 
 /// Time between two saves.
 const BETWEEN_SAVES: Duration = Duration::from_secs(5);

@@ -2,15 +2,15 @@
 
 use std::sync::LazyLock;
 
-use crate::case::{Case, KeptGeometry, Loaded};
-use crate::input::InputError;
-use crate::io::checksum::fnv1a;
-use crate::math;
 use crate::run::ensemble::{Costly, Ground, is_of_network, shared_by};
 use crate::study::definition::{Sampling, Study};
 use crate::study::measured;
 use crate::study::run::Run;
 use crate::study::runs::{Mistakes, runs};
+use meniscus_case::{Case, KeptGeometry, Loaded};
+use meniscus_core::input::InputError;
+use meniscus_core::math;
+use meniscus_output::checksum::fnv1a;
 
 /// A network, extracted on first use.
 type SharedGround = LazyLock<Result<Ground, String>, Box<dyn FnOnce() -> Result<Ground, String> + Send + Sync>>;

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::analysis::samples::{deviation, mean, quantile, sobol_indices};
 use crate::study::definition::{Input, Sampling, Study};
 use crate::study::results::{RunResult, grouped, measures};
 use crate::study::table::{Table, shown_measures};
 use crate::study::verdict::digits;
+use meniscus_geometry::analysis::samples::{deviation, mean, quantile, sobol_indices};
 
 /// Probabilities of the quantiles in tables.
 pub(crate) const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];

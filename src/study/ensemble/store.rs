@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::io::checksum::fnv1a;
-use crate::io::{FileError, atomic};
 use crate::run::ensemble::Observed;
+use meniscus_output::checksum::fnv1a;
+use meniscus_output::{FileError, atomic};
 
 /// First bytes of the file.
 const MAGIC: &[u8; 8] = b"samples\n";

@@ -2,8 +2,8 @@
 
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Triangular, Uniform};
 
-use crate::input::Checker;
 use crate::study::raw::{RawDistribution, RawLognormal, RawNormal, RawTriangular, RawUniform};
+use meniscus_core::input::Checker;
 
 /// A distribution with a finite quantile at every probability between 0 and 1.
 #[derive(Debug, Clone, PartialEq)]

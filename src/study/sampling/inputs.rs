@@ -5,10 +5,10 @@ use toml::Value;
 
 use super::design::{MOST_INPUTS, Matrix, Row, correlated, factor, plain, saltelli};
 use super::distribution::Distribution;
-use crate::input::Checker;
 use crate::study::axis::last_part;
 use crate::study::definition::{Axis, Column, Input, MATRIX, SAMPLE, Sampling, Target};
 use crate::study::raw::{RawAxis, RawCorrelation, RawSampling};
+use meniscus_core::input::Checker;
 
 /// Smallest and largest number of samples; the sequence has 65 536.
 const COUNTS: std::ops::RangeInclusive<usize> = 2..=10_000;

@@ -1,0 +1,20 @@
+//! `[network]`: displacement in a pore network.
+
+mod displacement;
+mod dynamic;
+mod films;
+pub mod measured;
+mod pore_network;
+mod region;
+pub mod state;
+mod table;
+
+pub use displacement::Trapping;
+pub use displacement::{NetworkDisplacement, Process, Stop};
+pub use dynamic::{DEFAULT_LARGEST_STEP, Drive, DynamicDrive};
+pub(super) use films::refuse_films;
+pub(super) use pore_network::network;
+pub use pore_network::{NetworkInterface, PoreNetwork};
+pub use region::Region;
+pub use table::Events;
+pub use table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};

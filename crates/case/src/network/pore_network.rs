@@ -1,0 +1,217 @@
+//! `[network]`: a pore network. The checks of its parts together, and the table of a checked network.
+
+use super::displacement::{NetworkDisplacement, displacement, refuse_other_sides, refuse_without_inlet};
+use super::measured::Measured;
+use super::region::{Region, region};
+use super::state::Start;
+use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawRegion};
+use crate::fluid::{Fluid, RawPhases, fluid};
+use crate::side::{SIDES, Side, SideName, Sides};
+use crate::wetting::{self, WettingPatch};
+use meniscus_core::input::Checker;
+use meniscus_core::input::tables::Key;
+use meniscus_geometry::spec::GeometrySpec;
+use meniscus_wetting::Wetting;
+
+/// A pore network and the displacement in it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct PoreNetwork {
+    /// The four sides: walls, periodic sides, the inlet and the outlet.
+    pub sides: Sides,
+    /// The wetting phase, if given.
+    pub wetting: Option<Fluid>,
+    /// The non-wetting phase, if given.
+    pub non_wetting: Option<Fluid>,
+    /// Interface and walls; `None`: no entry pressures.
+    pub interface: Option<NetworkInterface>,
+    /// Persistence ratio above which two maxima of the wall distance are one pore.
+    pub persistence: f64,
+    /// Measured entry pressures, which replace those of the formula.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
+    /// The displacement; `None` without an inlet.
+    pub displacement: Option<NetworkDisplacement>,
+    /// Where saturations and the porosity are taken; `None`: in the whole domain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub region: Option<Region>,
+}
+
+impl PoreNetwork {
+    /// Whether the displacement is in time, so that its clock is the time in s.
+    pub fn is_dynamic(&self) -> bool {
+        self.displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_some())
+    }
+}
+
+/// The interface between two fluids and its contact angles on walls.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct NetworkInterface {
+    /// Interfacial tension in N/m.
+    pub tension: f64,
+    /// Static angles through the wetting phase: Young, Tadmor or hysteresis.
+    pub wetting_model: Wetting,
+    /// Walls with their own angles, without stripes.
+    pub patches: Vec<WettingPatch>,
+}
+
+/// Default persistence ratio.
+pub(crate) const DEFAULT_PERSISTENCE: f64 = 0.95;
+
+/// Checks `[network]` and sets its defaults; `geometry` is missing if it was wrong.
+pub(crate) fn network(
+    checker: &mut Checker,
+    raw: &mut RawNetwork,
+    geometry: Option<&GeometrySpec>,
+    start: Option<Start>,
+) -> Option<PoreNetwork> {
+    let sides = sides(checker, raw);
+    let none = &mut RawPhases::default();
+    let phases = raw.phases.as_mut().unwrap_or(none);
+    let [wetting, non_wetting] =
+        [("wetting", &mut phases.wetting), ("non-wetting", &mut phases.non_wetting)].map(|(name, raw)| match raw {
+            Some(raw) => fluid(checker, &format!("network.phases.{name}"), raw).map(Some),
+            None => Some(None),
+        });
+    let interface = interface(checker, raw, sides.as_ref(), geometry);
+    if raw.dynamic.is_some() && raw.measured_throats.is_some() {
+        checker.refuse(
+            "network.measured",
+            "a displacement in time uses the entry pressures of the formula, not measured ones",
+            "leave it out, or leave out [network.dynamic]",
+        );
+    }
+    let displacement = if raw.inlet.is_some() {
+        if let (Some(start), Some(sides)) = (&start, &sides) {
+            refuse_other_sides(checker, start, sides);
+        }
+        Some(displacement(checker, raw, start))
+    } else {
+        refuse_without_inlet(checker, raw);
+        None
+    };
+    let region = region(checker, raw, sides.as_ref(), geometry);
+    raw.region = region.map(|Region { min, max }| RawRegion { min: Some(min), max: Some(max), extent: None });
+    if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
+        return None;
+    }
+    Some(PoreNetwork {
+        sides: sides?,
+        wetting: wetting?,
+        non_wetting: non_wetting?,
+        interface: interface?,
+        persistence: *raw.persistence.get_or_insert(DEFAULT_PERSISTENCE),
+        measured: raw.measured_throats.clone(),
+        displacement,
+        region,
+    })
+}
+
+/// The kinds of all four sides; `None` if they are incompatible.
+fn sides(checker: &mut Checker, raw: &mut RawNetwork) -> Option<Sides> {
+    let before = checker.problems.len();
+    let table = raw.sides.get_or_insert_default();
+    let given = [table.left, table.right, table.bottom, table.top];
+    let mut kinds = given.map(|side| match side {
+        Some(RawNetworkSide::Periodic) => Side::Periodic,
+        Some(RawNetworkSide::Wall) | None => Side::Wall,
+    });
+    let open = [("inlet", raw.inlet, Side::Inlet), ("outlet", raw.outlet, Side::Outlet)];
+    for (key, side, kind) in open.into_iter().filter_map(|(key, side, kind)| Some((key, side?.number(), kind))) {
+        if given[side].is_some() {
+            checker.refuse(
+                format!("network.sides.{}", SIDES[side]),
+                format!("the side `{}` is the {key}, and a kind of side is given for it too", SIDES[side]),
+                format!("leave it out of [network.sides], or choose another {key}"),
+            );
+        }
+        kinds[side] = kind;
+    }
+    if let (Some(inlet), Some(outlet)) = (raw.inlet.map(SideName::number), raw.outlet.map(SideName::number)) {
+        if inlet == outlet {
+            let message = format!("`{}` is both inlet and outlet", SIDES[inlet]);
+            checker.refuse("network.outlet", message, format!("take the opposite side, `{}`", SIDES[inlet ^ 1]));
+        } else if inlet / 2 != outlet / 2 {
+            checker.refuse(
+                "network.outlet",
+                format!("the inlet `{}` and the outlet `{}` meet in a corner", SIDES[inlet], SIDES[outlet]),
+                format!("take the opposite side, `{}`", SIDES[inlet ^ 1]),
+            );
+        }
+    }
+    for [a, b] in [[0, 1], [2, 3]] {
+        for (one, other) in [(a, b), (b, a)] {
+            if kinds[one] == Side::Periodic && kinds[other] != Side::Periodic {
+                let found = match kinds[other] {
+                    Side::Wall => "a wall",
+                    Side::Inlet => "the inlet",
+                    _ => "the outlet",
+                };
+                checker.refuse(
+                    format!("network.sides.{}", SIDES[one]),
+                    format!(
+                        "the side `{}` is periodic and the opposite side `{}` is {found}",
+                        SIDES[one], SIDES[other]
+                    ),
+                    "periodic sides come in pairs: make both periodic, or none",
+                );
+            }
+        }
+    }
+    let closed = |number: usize| match kinds[number] {
+        Side::Periodic => Some(RawNetworkSide::Periodic),
+        Side::Wall => Some(RawNetworkSide::Wall),
+        _ => None,
+    };
+    *table = RawNetworkSides { left: closed(0), right: closed(1), bottom: closed(2), top: closed(3) };
+    let [left, right, bottom, top] = kinds;
+    (checker.problems.len() == before).then_some(Sides { left, right, bottom, top })
+}
+
+/// Tension and angles: both, or neither without a displacement. The outer option is missing if a mistake was found.
+fn interface(
+    checker: &mut Checker,
+    raw: &mut RawNetwork,
+    sides: Option<&Sides>,
+    geometry: Option<&GeometrySpec>,
+) -> Option<Option<NetworkInterface>> {
+    let tension = raw.interface.as_ref().and_then(|interface| interface.tension);
+    if raw.inlet.is_none() && raw.interface.is_none() && raw.wetting.is_none() {
+        return Some(None);
+    }
+    // That of a direct simulation may be 0.
+    let above = Key::positive("a tension in N/m").example("tension = 0.0276 # N/m");
+    let tension = above.checked(checker, "network.interface", "tension", tension);
+    if raw.wetting.is_none() {
+        checker.require::<()>("network.wetting", None, "[network.wetting.young] with contact-angle-deg");
+    }
+    let model = wetting::model(checker, "network.wetting", raw.wetting.as_mut(), tension)?;
+    let model = static_model(checker, model);
+    let patches = match model {
+        Some(model) => wetting::patches(checker, "network.wetting", raw.wetting.as_mut(), model, sides, geometry),
+        None => Vec::new(),
+    };
+    for (index, patch) in raw.wetting.iter().flat_map(|raw| &raw.patches).flatten().enumerate() {
+        if patch.stripes.is_some() {
+            checker.refuse(
+                format!("network.wetting.patches[{index}].stripes"),
+                "menisci of a network lie between walls of one angle each, and stripes divide a wall",
+                "give the patch a shape or a side; a striped wall can be written as several shapes side by side",
+            );
+        }
+    }
+    Some(Some(NetworkInterface { tension: tension?, wetting_model: model?, patches }))
+}
+
+/// The model, if it is one for lines at rest.
+fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
+    if !model.is_dynamic() {
+        return Some(model);
+    }
+    let (name, angle) = (model.table().key, model.static_angle().to_degrees());
+    checker.refuse(
+        format!("network.wetting.{name}"),
+        format!("`{name}` depends on the speed of contact lines, and a quasi-static displacement has none"),
+        format!("take [network.wetting.young] with the static angle, contact-angle-deg = {angle:.1}"),
+    );
+    None
+}

@@ -1,0 +1,136 @@
+//! The table of `[network]`.
+
+use std::path::PathBuf;
+
+use super::measured::Measured;
+use crate::fluid::{RawInterface, RawPhases};
+use crate::side::SideName;
+use crate::wetting::RawWetting;
+use meniscus_core::input::tables::{Key, tables, words};
+
+tables! {
+    /// A pore network: pores and throats of the geometry, and a displacement through them.
+    pub struct RawNetwork {
+        /// Side where the invading phase enters; without it nothing is displaced.
+        pub inlet: SideName,
+        /// Opposite side where the defending phase leaves; without it none leaves and none is trapped.
+        pub outlet: SideName,
+        /// The sides that are neither inlet nor outlet (default: walls).
+        pub sides: RawNetworkSides,
+        /// The fluids; only viscosities count, for conductances and `dynamic` (default: 1 Pa s).
+        pub phases: RawPhases,
+        /// Interface between the fluids (required with an inlet).
+        pub interface: RawInterface,
+        /// `young`, `tadmor` or `hysteresis`, and patches without stripes (required with an inlet).
+        pub wetting: RawWetting,
+        /// Invading phase: non-wetting, wetting, or both in turn; in a cycle the wetting phase returns through the
+        /// outlet (default `drainage`).
+        pub process: RawProcess,
+        /// Number of cycles (default 1).
+        pub cycles: u32 => Key::within("a number of cycles", 1.0, 100.0),
+        /// Traps defending regions without a path to the outlet; else films drain them (default true).
+        pub trapping: bool,
+        /// Films of the wetting phase in corners with floor and lid: they let it out and in, and close throats where they meet; needs `geometry.depth`
+        /// (default false).
+        pub films: bool,
+        /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
+        pub events: Events,
+        /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).
+        pub persistence: f64 => Key::within("a persistence ratio", 0.5, 1.0),
+        /// Measured entry pressures: `measured.json` of `meniscus network verify` (default: those of the formula).
+        pub measured: PathBuf,
+        /// Contents of a file of measured entry pressures, in a resolved case.
+        pub measured_throats: Measured,
+        /// Criteria that end the displacement or each drainage of a cycle; the first one met counts.
+        pub stop: RawStop,
+        /// File with the initial state, of a network or a direct simulation; not with `dynamic` (default: full of the
+        /// defending phase).
+        pub initial: PathBuf,
+        /// Displacement in time, with viscous flow (default: quasi-static).
+        pub dynamic: RawDynamic,
+        /// Region over which saturations and the porosity are taken; not with `dynamic` (default: the whole domain).
+        pub region: RawRegion,
+    }
+
+    /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that crosses its boundary the part inside counts; pores
+    /// open to the inlet or the outlet are manifold and have no saturation, so that the first saturation is that of the defending phase alone.
+    pub(crate) struct RawRegion {
+        /// Lower left corner in m.
+        pub min: [f64; 2],
+        /// Upper right corner in m.
+        pub max: [f64; 2],
+        /// `pack`: from the first to the last grain between inlet and outlet, across the whole domain; instead of both corners.
+        pub extent: RegionExtent,
+    }
+
+    /// The sides that are neither inlet nor outlet.
+    pub struct RawNetworkSides {
+        /// Kind of the side (default `wall`).
+        pub left: RawNetworkSide,
+        /// Kind of the side (default `wall`).
+        pub right: RawNetworkSide,
+        /// Kind of the side (default `wall`).
+        pub bottom: RawNetworkSide,
+        /// Kind of the side (default `wall`).
+        pub top: RawNetworkSide,
+    }
+
+    /// What drives a displacement in time: a rate or a pressure drop.
+    pub(crate) struct RawDynamic {
+        /// Injected area of the invading phase per time in m²/s, with `geometry.depth` the volume in m³/s (required without `pressure-drop`).
+        pub rate: f64 => Key::positive("a rate in m2/s"),
+        /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
+        pub pressure_drop: f64 => Key::positive("a pressure drop in Pa"),
+        /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
+        pub largest_step: f64 => Key::within("a share of the pore volume", 1.0e-6, 1.0),
+        /// Initial saturation of the wetting phase: the invading phase fills part of the pores that are open at the inlet and completes them first (default:
+        /// these pores are full).
+        pub initial_saturation: f64 => Key::within("a saturation", 0.0, 1.0),
+    }
+
+    /// Criteria that end a displacement; the first one met counts.
+    pub(crate) struct RawStop {
+        /// Ends when the invading phase reaches the outlet (default false).
+        pub breakthrough: bool,
+        /// Final saturation of the wetting phase.
+        pub saturation: f64 => Key::within("a saturation of the wetting phase", 0.0, 1.0),
+        /// Final capillary pressure `p_n - p_w` in Pa; not with `dynamic`.
+        pub capillary_pressure: f64,
+        /// Injected pore volumes; only with `dynamic`.
+        pub injected: f64 => Key::positive("a number of pore volumes"),
+    }
+}
+
+words! {
+    /// Kind of a side of a network.
+    pub enum RawNetworkSide {
+        /// A solid wall with the contact angle of all walls.
+        Wall,
+        /// Periodic with the opposite side.
+        Periodic,
+    }
+
+    /// The invading phase.
+    pub enum RawProcess {
+        /// The non-wetting phase, into a pore space full of the wetting one.
+        Drainage,
+        /// The wetting phase, into a pore space full of the non-wetting one.
+        Imbibition,
+        /// Drainage from the inlet, then imbibition from the outlet, again and again.
+        Cycle,
+    }
+
+    /// A region defined by the geometry.
+    pub(crate) enum RegionExtent {
+        /// From the first to the last grain.
+        Pack,
+    }
+
+    /// The events that move menisci.
+    pub enum Events {
+        /// Burst, touch and overlap.
+        All,
+        /// Burst only: invasion percolation, for comparison with other programs.
+        Burst,
+    }
+}

@@ -1,0 +1,56 @@
+//! Tables and texts as data: the final output of a solver, written by other modules.
+
+/// The values of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cells {
+    /// Numbers; NaN for missing values.
+    Numbers(Vec<f64>),
+    /// Integers.
+    Counts(Vec<usize>),
+    /// Integers that may be absent.
+    Indices(Vec<Option<usize>>),
+    /// Booleans, written `True` and `False`.
+    Flags(Vec<bool>),
+    /// Strings.
+    Words(Vec<&'static str>),
+}
+
+impl Cells {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Counts(values) => values.len(),
+            Self::Indices(values) => values.len(),
+            Self::Flags(values) => values.len(),
+            Self::Words(values) => values.len(),
+        }
+    }
+}
+
+/// A column with its header.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Header, with the unit at its end.
+    pub name: &'static str,
+    /// Values.
+    pub cells: Cells,
+}
+
+/// Columns side by side; below the end of a shorter column fields are empty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Its file is `NAME.csv`.
+    pub name: &'static str,
+    /// Columns.
+    pub columns: Vec<Column>,
+}
+
+/// A text file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    /// Name of the file.
+    pub name: &'static str,
+    /// Its content.
+    pub text: String,
+}

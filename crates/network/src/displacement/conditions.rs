@@ -1,0 +1,76 @@
+//! Conditions of a displacement: contact angles, open sides, and types of events.
+
+use meniscus_case::network::{Events, Trapping};
+
+/// Conditions of a displacement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Contact angle in rad through the defending phase, one for each written shape and then for the walls at the left, right, bottom and top side.
+    pub angle: Vec<f64>,
+    /// Sides through which the invading phase enters: left, right, bottom, top.
+    pub inlet: [bool; 4],
+    /// Sides through which the defending phase leaves.
+    pub outlet: [bool; 4],
+    /// The trapping rule.
+    pub trapping: Trapping,
+    /// The types of events.
+    pub events: Events,
+    /// No event takes place above this curvature in 1/m.
+    pub largest_curvature: f64,
+    /// Bursts that were measured.
+    pub measured: Vec<MeasuredBurst>,
+    /// The effect of corner films.
+    pub films: CornerFilms,
+}
+
+/// Effect of corner films of the wetting phase in a chip on a displacement.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum CornerFilms {
+    /// No films.
+    #[default]
+    Absent,
+    /// The defending phase drains through them: none is trapped.
+    Drain,
+    /// The invading phase enters through them: all of it is connected, and it closes throats where films meet.
+    Join {
+        /// For each throat of the network the curvature in the plane (1/m, positive into the defending phase) at which its films meet; infinite if they do not.
+        meeting: Vec<f64>,
+    },
+}
+
+/// A measured burst, which replaces that of the formula.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredBurst {
+    /// The throat.
+    pub throat: usize,
+    /// Curvature by the formula in 1/m at the time of measurement: if the formula gives another one, as for another angle, the formula is used.
+    pub formula: f64,
+    /// Curvature in 1/m as measured.
+    pub curvature: f64,
+}
+
+impl Conditions {
+    /// All events and no open sides; nothing is trapped.
+    pub fn new(angle: Vec<f64>) -> Self {
+        Self {
+            angle,
+            inlet: [false; 4],
+            outlet: [false; 4],
+            trapping: Trapping::None,
+            events: Events::All,
+            largest_curvature: f64::INFINITY,
+            measured: Vec::new(),
+            films: CornerFilms::Absent,
+        }
+    }
+
+    /// The curvature in 1/m at which a meniscus bursts through a throat, `formula` by the formula.
+    pub(crate) fn burst(&self, throat: Option<usize>, formula: f64) -> f64 {
+        /// Relative differences that come from rounding on another machine.
+        const ROUNDING: f64 = 1e-9;
+        let is_same = |one: &&MeasuredBurst| {
+            Some(one.throat) == throat && (one.formula - formula).abs() <= ROUNDING * formula.abs()
+        };
+        self.measured.iter().find(is_same).map_or(formula, |one| one.curvature)
+    }
+}

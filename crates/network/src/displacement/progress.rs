@@ -1,0 +1,302 @@
+//! A displacement in progress: phases of elements, menisci in gates, and the consequences of filling an element.
+
+use std::collections::{BinaryHeap, VecDeque};
+use std::sync::Arc;
+
+use super::conditions::Conditions;
+use super::event::Candidate;
+use super::mesh::Mesh;
+use super::outline::outline;
+use super::trapping::{Connection, Held};
+use crate::graph::{Network, Pores, WallPiece};
+use meniscus_case::network::Events;
+use meniscus_core::math::Vec2;
+use meniscus_geometry::curve::Curve;
+use meniscus_geometry::interface::menisci::Passage;
+
+/// The phases of a displacement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// The displaced phase.
+    Defending,
+    /// The invading phase.
+    Invading,
+}
+
+/// A part of the pore space between walls and gates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// The region that it is part of.
+    pub region: usize,
+    /// Area in m².
+    pub area: f64,
+    /// Its boundary in m, arcs as chords, for pictures; the last point is not repeated.
+    pub outline: Vec<Vec2>,
+}
+
+/// A meniscus in a gate, facing the element on one side of it.
+#[derive(Debug, Clone)]
+pub(super) struct Front {
+    /// The walls along which it moves.
+    pub(crate) passage: Passage,
+    /// Curvature of its own event in 1/m.
+    pub(crate) own: f64,
+}
+
+/// A displacement in progress.
+#[derive(Debug, Clone)]
+pub struct Displacement {
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) elements: Arc<Vec<Element>>,
+    pub(super) centers: Arc<Vec<Vec2>>,
+    pub(super) conditions: Conditions,
+    pub(super) invaded: Vec<bool>,
+    pub(super) connection: Connection,
+    /// Applied curvature in 1/m when an element was trapped, or at the end of the previous half cycle; NaN if there was none.
+    pub(super) held: Vec<f64>,
+    pub(super) fronts: Vec<[Option<Front>; 2]>,
+    pub(super) queue: BinaryHeap<Candidate>,
+    /// Remaining events of the same curvature as the last one.
+    pub(super) tied: VecDeque<Candidate>,
+    /// Elements that events of this curvature have filled.
+    filled: Vec<usize>,
+    /// By gate: whether films have closed it between non-wetting phase on both sides.
+    pub(super) closed: Vec<bool>,
+    /// Gates that events of this curvature have closed, and opened again.
+    pub(super) closing: Vec<usize>,
+    pub(super) opened: Vec<usize>,
+    pub(super) applied: f64,
+    is_outlet: Vec<bool>,
+    has_reached_outlet: bool,
+}
+
+/// The division of the pore space into elements, independent of contact angles.
+#[derive(Debug, Clone)]
+pub(crate) struct Division {
+    pub(super) mesh: Arc<Mesh>,
+    elements: Arc<Vec<Element>>,
+    centers: Arc<Vec<Vec2>>,
+}
+
+impl Division {
+    /// The division of a network for these types of events.
+    pub(crate) fn of(network: &Network, pores: &Pores, events: Events) -> Self {
+        let mesh = match events {
+            Events::All => Mesh::divided(network),
+            Events::Burst => Mesh::of_pores(network, pores),
+        };
+        let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
+        let element =
+            |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: outline(&mesh.loops[k]) };
+        let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
+        Self { mesh: Arc::new(mesh), elements, centers }
+    }
+}
+
+impl Displacement {
+    /// Invasion of a pore space full of the defending phase \[WilkinsonWillemsen1983\], except elements open at an inlet: openings have no entry pressure.
+    pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
+        Self::within(&Division::of(network, pores, conditions.events), conditions)
+    }
+
+    /// The same in a pore space already divided for these events.
+    pub(crate) fn within(division: &Division, conditions: Conditions) -> Self {
+        let Mesh { elements, gates, .. } = &*division.mesh;
+        Self::begun(division.clone(), conditions, vec![false; elements.len()], vec![false; gates.len()])
+    }
+
+    /// The other phase invades from the present state. Its elements without a connection to an inlet take no part until they are reached, or,
+    /// without trapping, take part from the start.
+    pub fn reverse(self, conditions: Conditions) -> Self {
+        let invaded = self.invaded.iter().map(|invaded| !invaded).collect();
+        let conditions = Conditions { events: self.conditions.events, ..conditions };
+        // The sign of curvatures reverses with the phases.
+        let last = if self.applied.is_finite() { -self.applied } else { f64::NAN };
+        let held =
+            self.connection.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
+        let held = held.collect();
+        let division = Division { mesh: self.mesh, elements: self.elements, centers: self.centers };
+        Self { held, ..Self::begun(division, conditions, invaded, self.closed) }
+    }
+
+    pub(super) fn begun(
+        division: Division,
+        conditions: Conditions,
+        mut invaded: Vec<bool>,
+        mut closed: Vec<bool>,
+    ) -> Self {
+        let Division { mesh, elements, centers } = division;
+        let count = mesh.elements.len();
+        let opens = |sides: [bool; 4]| -> Vec<bool> {
+            mesh.elements.iter().map(|element| (0..4).any(|side| element.open[side] && sides[side])).collect()
+        };
+        let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
+        inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
+        Self::closed_within(&mesh, &mut closed, &invaded, &conditions.films);
+        let held = Held { mesh: &mesh, invaded: &invaded, closed: &closed };
+        let (connection, first) = Connection::begin(&conditions, held, [&inlets, &outlets]);
+        let fronts = vec![const { [None, None] }; mesh.gates.len()];
+        let mut begun = Self {
+            mesh: mesh.clone(),
+            elements,
+            centers,
+            conditions,
+            invaded,
+            connection,
+            held: vec![f64::NAN; count],
+            fronts,
+            queue: BinaryHeap::new(),
+            tied: VecDeque::new(),
+            filled: Vec::new(),
+            closed,
+            closing: Vec::new(),
+            opened: Vec::new(),
+            applied: f64::NEG_INFINITY,
+            is_outlet: outlets,
+            has_reached_outlet: false,
+        };
+        begun.advance_from_all(&mesh, &first);
+        for gate in (0..mesh.gates.len()).filter(|&gate| begun.closed[gate]).collect::<Vec<_>>() {
+            begun.advance_from_closed(&mesh, gate);
+        }
+        begun.queue_snap_off(&mesh);
+        begun
+    }
+
+    pub(super) fn fill(&mut self, mesh: &Mesh, elements: &[usize]) {
+        for &element in elements {
+            self.invaded[element] = true;
+            self.stop_fronts_into(mesh, element);
+            mesh.elements[element].gates.iter().for_each(|&(gate, _)| self.closed[gate] = false);
+        }
+        self.filled.extend_from_slice(elements);
+    }
+
+    /// Consequences of all events of one curvature: trapping and new menisci.
+    pub(super) fn settle(&mut self, mesh: &Mesh) {
+        let (elements, opened) = (std::mem::take(&mut self.filled), std::mem::take(&mut self.opened));
+        let mut closing = std::mem::take(&mut self.closing);
+        closing.retain(|&gate| self.closed[gate]);
+        for &element in &elements {
+            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
+            let lost = self.connection.remove(held, element);
+            self.leave(mesh, lost);
+        }
+        self.lose_through(mesh, &closing);
+        let beside = opened.iter().flat_map(|&gate| [mesh.element(gate, 0), mesh.element(gate, 1)]);
+        for element in elements.into_iter().chain(beside) {
+            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
+            let joined = self.connection.join(held, element);
+            self.advance_from_all(mesh, &joined);
+        }
+        closing.into_iter().for_each(|gate| self.advance_from_closed(mesh, gate));
+    }
+
+    /// Elements are trapped at the applied curvature.
+    pub(super) fn leave(&mut self, mesh: &Mesh, lost: Vec<usize>) {
+        for lost in lost {
+            self.held[lost] = self.applied;
+            self.stop_fronts_into(mesh, lost);
+        }
+    }
+
+    fn stop_fronts_into(&mut self, mesh: &Mesh, element: usize) {
+        for &(gate, end) in &mesh.elements[element].gates {
+            self.fronts[gate][end] = None;
+        }
+    }
+
+    fn advance_from_all(&mut self, mesh: &Mesh, elements: &[usize]) {
+        for &element in elements {
+            self.has_reached_outlet |= self.is_outlet[element];
+            self.advance_from(mesh, element);
+        }
+    }
+
+    /// Places menisci towards the neighbors of an element that hold the defending phase and are connected to an outlet.
+    fn advance_from(&mut self, mesh: &Mesh, element: usize) {
+        for &(gate, end) in &mesh.elements[element].gates {
+            let (to, target) = (1 - end, mesh.element(gate, 1 - end));
+            if !self.invaded[target] && !self.connection.trapped[target] && self.fronts[gate][to].is_none() {
+                self.advance_through(mesh, gate, to);
+            } else if self.closed[gate] && self.invaded[target] && self.fronts[gate][to].is_none() {
+                self.queue_reconnection(mesh, gate, to);
+            }
+        }
+    }
+
+    /// The types of events.
+    pub(crate) fn events(&self) -> Events {
+        self.conditions.events
+    }
+
+    /// The elements; they tile the pore space.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// The phase in an element.
+    pub fn phase(&self, element: usize) -> Phase {
+        if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
+    }
+
+    /// Whether an element is open at an inlet or an outlet.
+    pub(crate) fn is_manifold(&self, element: usize) -> bool {
+        let open = self.mesh.elements[self.mesh.element_of[element]].open;
+        (0..4).any(|side| open[side] && (self.conditions.inlet[side] || self.conditions.outlet[side]))
+    }
+
+    /// Whether an element holds trapped defending phase.
+    pub fn is_trapped(&self, element: usize) -> bool {
+        self.connection.trapped[self.mesh.element_of[element]]
+    }
+
+    /// Whether the phase in an element no longer follows the applied pressure: trapped, or invading and not connected to the inlet.
+    pub(crate) fn is_cut_off(&self, element: usize) -> bool {
+        let element = self.mesh.element_of[element];
+        self.connection.trapped[element] || (self.invaded[element] && !self.connection.is_joined(element))
+    }
+
+    /// The walls around an element.
+    pub(crate) fn wall_pieces(&self, element: usize) -> impl Iterator<Item = &WallPiece> {
+        self.mesh.loops[element].walls.iter().flatten()
+    }
+
+    /// Applies a curvature in 1/m below that of the next event.
+    pub(crate) fn apply(&mut self, curvature: f64) {
+        self.applied = self.applied.max(curvature);
+    }
+
+    /// Whether the invading phase, connected to the inlet, has reached an outlet.
+    pub fn reached_outlet(&self) -> bool {
+        self.has_reached_outlet
+    }
+
+    /// The menisci at the applied curvature in 1/m, each a polyline in m.
+    pub(crate) fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
+        const POINTS: usize = 17;
+        let fronts = self.fronts.iter().flatten().flatten();
+        fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
+    }
+
+    /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that
+    /// region; `None` if the throat is not a gate.
+    pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
+        let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
+        Some(self.passage(&self.mesh, (gate, to), Vec2::zeros()))
+    }
+
+    /// Curvature in 1/m at which menisci burst through each throat, the larger of both directions, under other conditions; NaN for throats that are not gates.
+    pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
+        let mut found = vec![f64::NAN; throats];
+        for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
+            let burst = |to| {
+                let (passage, _) = self.passage_at(&conditions.angle, &self.mesh, (gate, to), Vec2::zeros());
+                let formula = passage.burst().map_or(f64::NAN, |meniscus| meniscus.curvature);
+                conditions.burst(Some(throat), formula)
+            };
+            found[throat] = burst(0).max(burst(1));
+        }
+        found
+    }
+}

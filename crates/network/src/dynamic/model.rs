@@ -1,0 +1,66 @@
+//! A dynamic displacement with its network, for output.
+
+use super::Dynamic;
+use crate::cycles::{FluidPhase, Invasion};
+use crate::model::Model;
+use crate::occupation::Occupation;
+
+/// A network and the displacement in it.
+pub(crate) struct DynamicModel {
+    /// The network, without a displacement.
+    pub(crate) quasi_static: Model,
+    /// The displacement.
+    pub(crate) dynamic: Dynamic,
+    /// The invading phase.
+    pub(crate) invading: FluidPhase,
+}
+
+impl DynamicModel {
+    /// Pore volumes injected.
+    pub(crate) fn injected(&self) -> f64 {
+        self.dynamic.state.passed[0] / self.dynamic.space.pore_area
+    }
+
+    /// Saturation of the invading phase.
+    pub(crate) fn saturation(&self) -> f64 {
+        self.dynamic.invading_area() / self.dynamic.space.pore_area
+    }
+
+    /// Saturation of the wetting phase.
+    pub(crate) fn wetting_saturation(&self) -> f64 {
+        self.invading.saturation(self.saturation())
+    }
+
+    /// Capillary number μ U/σ: viscosity of the invading phase, U the inflow over the length of the inlet side.
+    pub(crate) fn capillary_number(&self) -> f64 {
+        let (_, inflow) = self.dynamic.drive_now();
+        let terms = self.dynamic.terms();
+        let config = &self.quasi_static.config;
+        let side = config.inlet.map_or(f64::NAN, |inlet| config.bounds.size()[1 - inlet / 2]);
+        terms.viscosity[0] * inflow / (side * terms.tension)
+    }
+
+    /// The present state.
+    pub(crate) fn occupation(&self) -> Occupation<'_> {
+        let elements = self.dynamic.displacement().elements();
+        let towards_wetting =
+            |invasion: Invasion| Invasion { applied: self.invading.towards_wetting(invasion.applied), ..invasion };
+        Occupation {
+            elements,
+            invading: self.invading,
+            share: (0..elements.len()).map(|element| self.dynamic.share(element)).collect(),
+            trapped: self.dynamic.trapped(),
+            invasions: self.dynamic.invasions().iter().map(|invasion| invasion.map(towards_wetting)).collect(),
+            passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
+            menisci: self.dynamic.menisci(),
+            films: None,
+            note: format!(
+                "{} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
+                self.invading.process(),
+                self.dynamic.time(),
+                self.injected(),
+                self.capillary_number()
+            ),
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Regions and throats from loops and maxima, and their certificate.
+
+use std::collections::BTreeSet;
+
+use crate::extract::loops::{Loop, Loops, Step};
+use crate::extract::moments::Moments;
+use crate::extract::openings::farthest;
+use crate::graph::{Edge, Network, Opening, Region, Throat, WallPiece};
+use meniscus_core::math::Vec2;
+use meniscus_geometry::critical::CriticalPoints;
+use meniscus_geometry::critical::opposite::SAME_DIRECTION;
+use meniscus_geometry::critical::shift::{Shift, minus, plus};
+use meniscus_geometry::critical::slope::curvature;
+use meniscus_geometry::critical::walls::{Contact, Walls};
+
+/// The result of extraction from given critical points.
+pub(super) enum Attempt {
+    /// A network with a certificate.
+    Certified(Network),
+    /// Regions without exactly one maximum.
+    Failed {
+        /// Where, in m.
+        near: Vec<Vec2>,
+        /// The walls around each of them.
+        images: Vec<Vec<(usize, Shift)>>,
+    },
+}
+
+impl Attempt {
+    /// This attempt if it has a certificate, else the other one.
+    pub(super) fn or(self, other: Self) -> Self {
+        if matches!(self, Self::Certified(_)) { self } else { other }
+    }
+}
+
+/// Relative tolerance of equal radii and widths.
+const SAME: f64 = 1e-7;
+
+/// The network of the loops, if each of them has exactly one maximum.
+pub(super) fn attempt(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> Attempt {
+    let owned = maxima_of(walls, points, loops);
+    let mut network = Network { throats: throats(walls, points), ..Network::default() };
+    let mut failed = Vec::new();
+    for (number, (ring, maxima)) in loops.loops.iter().zip(&owned).enumerate() {
+        let region = build(walls, points, ring, number, maxima, &mut network);
+        let is_good = region.as_ref().is_some_and(|region| is_certified(walls, region, maxima.len()));
+        match region {
+            Some(region) if is_good => network.regions.push(region),
+            _ => failed.push(number),
+        }
+    }
+    if !failed.is_empty() {
+        return failure(walls, points, failed.iter().map(|&number| &loops.loops[number]));
+    }
+    let wide: Vec<usize> = (0..network.throats.len())
+        .filter(|&throat| {
+            let throat = &network.throats[throat];
+            throat.regions.iter().any(|&r| 0.5 * throat.width > network.regions[r].radius * (1.0 + SAME))
+        })
+        .collect();
+    if !wide.is_empty() {
+        let around = wide.iter().flat_map(|&throat| network.throats[throat].regions);
+        return failure(walls, points, around.map(|region| &loops.loops[region]));
+    }
+    Attempt::Certified(network)
+}
+
+/// A maximum of a loop: its number, and its shift in the frame of the loop.
+#[derive(Debug, Clone, Copy)]
+struct Owned {
+    maximum: usize,
+    shift: Shift,
+}
+
+/// The maxima of each loop.
+fn maxima_of(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> Vec<Vec<Owned>> {
+    let mut owned = vec![Vec::new(); loops.loops.len()];
+    for (k, maximum) in points.maxima.iter().enumerate() {
+        let found = maximum
+            .contacts
+            .iter()
+            .filter_map(|contact| loops.at(walls, contact, contact.point - maximum.center))
+            // The contact farthest from chord ends is unambiguous.
+            .max_by(|a, b| a.2.total_cmp(&b.2));
+        if let Some((number, shift, _)) = found {
+            owned[number].push(Owned { maximum: k, shift });
+        }
+    }
+    owned
+}
+
+fn throats(walls: &Walls, points: &CriticalPoints) -> Vec<Throat> {
+    points
+        .saddles
+        .iter()
+        .map(|saddle| Throat {
+            width: 2.0 * saddle.half,
+            contacts: saddle.contacts.map(|contact| contact.point),
+            shapes: saddle.contacts.map(|contact| walls.walls[contact.wall].shape),
+            curvatures: saddle.contacts.map(|contact| contact_curvature(walls, &contact)),
+            regions: [usize::MAX; 2],
+            shift: Vec2::zeros(),
+        })
+        .collect()
+}
+
+/// The signed curvature in 1/m of the wall at a contact: infinite at a sharp vertex; the larger one if two arcs join smoothly.
+fn contact_curvature(walls: &Walls, contact: &Contact) -> f64 {
+    let [before, after] = walls.around(contact);
+    let (Some(before), Some(after)) = (before, after) else { return f64::INFINITY };
+    let (a, b) = (walls.curve(before.wall, before.shift), walls.curve(after.wall, after.shift));
+    if before == after {
+        return curvature(&a);
+    }
+    let turns = (a.tangent(1.0) - b.tangent(0.0)).norm() > SAME_DIRECTION;
+    if turns { f64::INFINITY } else { curvature(&a).max(curvature(&b)) }
+}
+
+/// The region of a loop; `None` if the loop is not closed or has neither maximum nor opening.
+fn build(
+    walls: &Walls,
+    points: &CriticalPoints,
+    ring: &Loop,
+    number: usize,
+    maxima: &[Owned],
+    network: &mut Network,
+) -> Option<Region> {
+    if ring.winding != [0, 0] {
+        return None;
+    }
+    let (center, radius, frame) = match maxima.first() {
+        Some(owned) => {
+            let maximum = &points.maxima[owned.maximum];
+            (maximum.center, maximum.radius, owned.shift)
+        }
+        None => {
+            let (x, radius) = widest_opening(walls, ring)?;
+            let (center, shift) = walls.wrapped(x);
+            (center, radius, shift)
+        }
+    };
+    let by = |shift: Shift| minus(shift, frame);
+    let mut moments = Moments::about(center);
+    let mut wall_length = 0.0;
+    let mut edges = Vec::new();
+    let mut stretch: Option<Vec<WallPiece>> = None;
+    for step in &ring.steps {
+        match *step {
+            Step::Wall { wall, shift, from, to } => {
+                let curve = walls.curve(wall, by(shift));
+                let part = if (from, to) == (0.0, 1.0) { curve } else { curve.part(from, to) };
+                moments.curve(&part);
+                wall_length += part.length();
+                stretch.get_or_insert_default().push(WallPiece {
+                    curve: part,
+                    whole: curve,
+                    shape: walls.walls[wall].shape,
+                });
+                continue;
+            }
+            Step::Chord { throat, end, shift } => {
+                let saddle = &points.saddles[throat];
+                let offset = walls.offset(by(shift));
+                let (from, to) = (saddle.contacts[end].point + offset, saddle.contacts[1 - end].point + offset);
+                moments.straight(from, to);
+                edges.push(Edge::Wall(stretch.take().unwrap_or_default()));
+                edges.push(Edge::Throat { throat, end, from, to });
+                network.throats[throat].regions[end] = number;
+                // `contacts` and `shift` are complete once both regions have been processed.
+                if end == 0 {
+                    network.throats[throat].contacts = [from, to];
+                    network.throats[throat].shift -= offset;
+                } else {
+                    network.throats[throat].shift += offset;
+                }
+            }
+            Step::Side { part, shift } => {
+                let offset = walls.offset(by(shift));
+                let (from, to) = (part.from + offset, part.to + offset);
+                moments.straight(from, to);
+                if let Some(pieces) = stretch.take() {
+                    edges.push(Edge::Wall(pieces));
+                }
+                edges.push(Edge::Opening { opening: network.openings.len(), from, to });
+                network.openings.push(Opening { side: part.side, ends: [from, to], region: number });
+            }
+        }
+    }
+    if let Some(last) = stretch {
+        match edges.first_mut() {
+            // The loop started within this stretch.
+            Some(Edge::Wall(first)) => {
+                let begin = std::mem::replace(first, last);
+                first.extend(begin);
+            }
+            _ => edges.push(Edge::Wall(last)),
+        }
+    }
+    let moments = moments.closed();
+    Some(Region { center, radius, edges, area: -moments.area, wall_length, centroid: moments.centroid() })
+}
+
+/// The point on the openings of a loop farthest from the walls, in the frame of the loop, and its distance in m.
+fn widest_opening(walls: &Walls, ring: &Loop) -> Option<(Vec2, f64)> {
+    let parts = ring.steps.iter().filter_map(|step| match *step {
+        Step::Side { part, shift } => Some((part, walls.offset(shift))),
+        _ => None,
+    });
+    parts.map(|(part, offset)| farthest(walls, part.from + offset, part.to + offset)).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Whether a region has exactly one maximum.
+fn is_certified(walls: &Walls, region: &Region, maxima: usize) -> bool {
+    let openings = region.edges.iter().filter_map(|edge| match edge {
+        Edge::Opening { from, to, .. } => Some((*from, *to)),
+        _ => None,
+    });
+    let is_higher_outside =
+        || openings.clone().any(|(from, to)| farthest(walls, from, to).1 > region.radius * (1.0 + SAME));
+    match maxima {
+        0 => region.area > 0.0,
+        1 => region.area > 0.0 && !is_higher_outside(),
+        _ => false,
+    }
+}
+
+/// A failed certificate: the first point of each loop, and all its walls.
+fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item = &'a Loop>) -> Attempt {
+    let (mut near, mut images) = (Vec::new(), Vec::new());
+    for ring in loops {
+        let position = ring.steps.iter().find_map(|step| match *step {
+            Step::Wall { wall, from, to, .. } => Some(walls.walls[wall].curve.point(0.5 * (from + to))),
+            Step::Chord { throat, .. } => Some(points.saddles[throat].center),
+            Step::Side { .. } => None,
+        });
+        near.extend(position);
+        let mut around = BTreeSet::new();
+        for step in &ring.steps {
+            match *step {
+                Step::Wall { wall, shift, .. } => around.extend([(wall, shift)]),
+                Step::Chord { throat, shift, .. } => {
+                    around.extend(points.saddles[throat].contacts.map(|c| (c.wall, plus(c.shift, shift))));
+                }
+                Step::Side { .. } => {}
+            }
+        }
+        images.push(around.into_iter().collect());
+    }
+    Attempt::Failed { near, images }
+}

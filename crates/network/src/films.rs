@@ -1,0 +1,216 @@
+//! Volume of the corner films of a chip: in elements of the non-wetting phase they count as wetting phase.
+//!
+//! Each wall of such an element has two films, at floor and lid, with the cross-section r² S each, r = σ/(p_n - p_w). Their thickness is
+//! bounded by contact with another film, on the same wall or, on average over the element, on a plate. Films around trapped ganglia keep the
+//! pressure at which these were cut off; all others follow the applied one.
+
+use super::displacement::{Beginning, Displacement, Phase};
+use super::graph::{Network, Throat, WallPiece};
+use meniscus_case::FluidPhase;
+use meniscus_core::math::Vec2;
+use meniscus_geometry::curve::Curve;
+use meniscus_geometry::interface::depth::Depth;
+use meniscus_geometry::interface::films::{WallFilms, meeting};
+
+/// The films of a chip for an invading phase.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FilmTerms {
+    /// Contribution of floor and lid to the curvature of menisci.
+    pub(crate) depth: Depth,
+    /// By wall.
+    pub(crate) walls: Vec<WallFilms>,
+}
+
+impl FilmTerms {
+    /// For each throat the curvature in the plane (1/m, positive if it bulges into the non-wetting phase) at which its films meet; infinite without films.
+    pub(crate) fn meeting(&self, network: &Network) -> Vec<f64> {
+        let throat = |throat: &Throat| {
+            let walls = throat.shapes.map(|shape| &self.walls[shape as usize]);
+            let curvature = meeting(throat.width, self.depth.distance(), walls);
+            if curvature > 0.0 { -self.depth.plane(curvature) } else { f64::INFINITY }
+        };
+        network.throats.iter().map(throat).collect()
+    }
+}
+
+/// A point of the curve of capillary pressure over saturation, with the films at every pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CurvePoint {
+    /// Index of its half cycle.
+    pub(crate) half_cycle: usize,
+    /// (p_n - p_w)/σ in 1/m.
+    pub(crate) curvature: f64,
+    /// Saturation of the wetting phase.
+    pub(crate) saturation: f64,
+    /// Corner films as a fraction of the pore space, part of the saturation.
+    pub(crate) film_saturation: f64,
+}
+
+/// The films of one element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ElementFilms {
+    /// Volume over the depth at a radius of 1 m, in m² per m².
+    unit: f64,
+    /// Largest radius in m.
+    largest: f64,
+}
+
+impl ElementFilms {
+    fn new(displacement: &Displacement, element: usize, terms: &FilmTerms) -> Self {
+        let area = displacement.elements()[element].area;
+        let (mut unit, mut largest, mut on_plates) = (0.0, f64::INFINITY, [0.0; 2]);
+        for piece in displacement.wall_pieces(element) {
+            let (films, length) = (&terms.walls[piece.shape as usize], piece.curve.length());
+            unit += length * films.area() / terms.depth.distance();
+            largest = largest.min(terms.depth.distance() / films.along_wall());
+            let along = films.along_plates();
+            on_plates = [0, 1].map(|plate| on_plates[plate] + length * along[plate]);
+        }
+        let largest = on_plates.into_iter().fold(largest, |largest, along| largest.min(area / along));
+        Self { unit, largest }
+    }
+
+    fn radius(&self, curvature: f64) -> f64 {
+        if curvature > 0.0 { (1.0 / curvature).min(self.largest) } else { self.largest }
+    }
+
+    /// Volume over the depth in m² at (p_n - p_w)/σ in 1/m.
+    fn area(&self, curvature: f64) -> f64 {
+        if self.unit > 0.0 { self.unit * self.radius(curvature).powi(2) } else { 0.0 }
+    }
+}
+
+/// Whether an element has films, and which pressure they have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Film {
+    /// None: the wetting phase fills it.
+    Absent,
+    /// They follow the applied pressure.
+    Free,
+    /// They keep this (p_n - p_w)/σ in 1/m.
+    Kept(f64),
+}
+
+/// All films at one moment.
+#[derive(Debug, Clone)]
+pub(crate) struct Films {
+    terms: FilmTerms,
+    elements: Vec<ElementFilms>,
+    states: Vec<Film>,
+    /// Fraction of each element that counts in saturations.
+    shares: Vec<f64>,
+    /// (p_n - p_w)/σ in 1/m.
+    pub(crate) curvature: f64,
+}
+
+impl Films {
+    /// Initial films: at zero capillary pressure in drainage, infinite in imbibition.
+    pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms, shares: Vec<f64>) -> Self {
+        let curvature = if invading == FluidPhase::Wetting { f64::INFINITY } else { 0.0 };
+        let states = vec![Film::Absent; displacement.elements().len()];
+        Self { elements: Vec::new(), states, shares, curvature, terms }.with_terms(displacement, None)
+    }
+
+    /// The same at the initial pressure of a displacement that continues another one.
+    pub(crate) fn begun(mut self, invading: FluidPhase, initial: Option<&Beginning>) -> Self {
+        let known = initial.and_then(|initial| {
+            let held = initial.held.iter().copied();
+            std::iter::once(initial.applied).chain(held).find(|curvature| curvature.is_finite())
+        });
+        self.curvature = known.map_or(self.curvature, |known| self.curvature_at(invading.towards_wetting(known)));
+        self
+    }
+
+    /// The same with the other phase invading.
+    pub(crate) fn with_terms(mut self, displacement: &Displacement, terms: Option<FilmTerms>) -> Self {
+        self.terms = terms.unwrap_or(self.terms);
+        let count = displacement.elements().len();
+        self.elements = (0..count).map(|element| ElementFilms::new(displacement, element, &self.terms)).collect();
+        self
+    }
+
+    /// Updates the films to the present phases at the present curvature.
+    pub(crate) fn update(&mut self, displacement: &Displacement, invading: FluidPhase) {
+        for (element, state) in self.states.iter_mut().enumerate() {
+            let is_wetting = (displacement.phase(element) == Phase::Invading) == (invading == FluidPhase::Wetting);
+            *state = match *state {
+                _ if is_wetting => Film::Absent,
+                _ if !displacement.is_cut_off(element) => Film::Free,
+                Film::Kept(curvature) => Film::Kept(curvature),
+                Film::Absent | Film::Free => Film::Kept(self.curvature),
+            };
+        }
+    }
+
+    /// (p_n - p_w)/σ in 1/m at a meniscus of this curvature in the plane towards the wetting phase.
+    pub(crate) fn curvature_at(&self, in_plane: f64) -> f64 {
+        self.terms.depth.curvature(in_plane)
+    }
+
+    /// Volume over the depth in m² of all films that count if (p_n - p_w)/σ were `curvature` in 1/m.
+    pub(crate) fn area_at(&self, curvature: f64) -> f64 {
+        (0..self.states.len()).map(|element| self.shares[element] * self.area_of(element, curvature)).sum()
+    }
+
+    fn area_of(&self, element: usize, curvature: f64) -> f64 {
+        match self.states[element] {
+            Film::Absent => 0.0,
+            Film::Free => self.elements[element].area(curvature),
+            Film::Kept(curvature) => self.elements[element].area(curvature),
+        }
+    }
+
+    /// The same at the present curvature.
+    pub(crate) fn area(&self) -> f64 {
+        self.area_at(self.curvature)
+    }
+
+    /// The same of films around trapped ganglia.
+    pub(crate) fn trapped_area(&self, displacement: &Displacement) -> f64 {
+        let trapped = (0..self.states.len()).filter(|&element| displacement.is_trapped(element));
+        trapped.map(|element| self.shares[element] * self.area_of(element, self.curvature)).sum()
+    }
+
+    /// The films for pictures and tables.
+    pub(crate) fn observed(&self, displacement: &Displacement) -> ObservedFilms {
+        let count = self.states.len();
+        let volume = |element| self.terms.depth.distance() * self.area_of(element, self.curvature);
+        let strips = (0..count).flat_map(|element| self.strips(displacement, element)).collect();
+        ObservedFilms { volume: (0..count).map(volume).collect(), strips }
+    }
+
+    /// The films of an element from above: for each wall the middle line of the wider film, and its width in m.
+    fn strips(&self, displacement: &Displacement, element: usize) -> Vec<(Vec<Vec2>, f64)> {
+        const LARGEST_TURN: f64 = 0.1;
+        let curvature = match self.states[element] {
+            Film::Absent => return Vec::new(),
+            Film::Free => self.curvature,
+            Film::Kept(curvature) => curvature,
+        };
+        let radius = self.elements[element].radius(curvature);
+        let strip = |piece: &WallPiece| {
+            let [floor, lid] = self.terms.walls[piece.shape as usize].along_plates();
+            let width = radius * floor.max(lid);
+            let turn = match piece.curve {
+                Curve::Segment { .. } => 0.0,
+                Curve::Arc { sweep, .. } => sweep.abs(),
+            };
+            let parts = (turn / LARGEST_TURN).ceil().max(1.0);
+            let point = |k: usize| {
+                let at = k as f64 / parts;
+                piece.curve.point(at) + 0.5 * width * piece.curve.normal(at)
+            };
+            (width > 0.0).then(|| ((0..=parts as usize).map(point).collect(), width))
+        };
+        displacement.wall_pieces(element).filter_map(strip).collect()
+    }
+}
+
+/// Films for pictures and tables.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ObservedFilms {
+    /// Volume in m³ in each element.
+    pub(crate) volume: Vec<f64>,
+    /// Along the walls: the middle line of each film in m, and its width in m.
+    pub(crate) strips: Vec<(Vec<Vec2>, f64)>,
+}

@@ -1,0 +1,144 @@
+//! The data of a network for output: its static configuration and its displacement.
+
+use std::cell::OnceCell;
+use std::sync::{Arc, OnceLock};
+
+use super::conductance::conductances;
+use super::cycles::{Cycles, FluidPhase};
+use super::displacement::{Conditions, Displacement};
+use super::graph::{Network, Pores};
+use meniscus_case::Side;
+use meniscus_core::math::Bounds;
+use meniscus_core::snapshot::Lines;
+use meniscus_geometry::interface::depth::Depth;
+
+/// The static configuration: the network, its walls and fluids.
+#[derive(Debug, Clone)]
+pub struct Configuration {
+    /// The network.
+    pub network: Arc<Network>,
+    /// Its regions joined to pores.
+    pub pores: Arc<Pores>,
+    /// The domain.
+    pub bounds: Bounds,
+    /// Whether it is periodic along x and y.
+    pub periodic: [bool; 2],
+    /// The side that is the inlet: left, right, bottom, top are 0 to 3.
+    pub inlet: Option<usize>,
+    /// The side that is the outlet.
+    pub outlet: Option<usize>,
+    /// The walls, for pictures.
+    pub outline: Arc<Lines<'static>>,
+    /// Porosity: pore area over the area of the domain or of its region.
+    pub porosity: f64,
+    /// Interfacial tension in N/m.
+    pub tension: Option<f64>,
+    /// Floor and lid with the angles for invasion by the non-wetting and by the wetting phase; `None` in the plane.
+    pub depth: Option<[Depth; 2]>,
+    /// Viscosities of the wetting and the non-wetting phase in Pa s, if given.
+    pub viscosities: [Option<f64>; 2],
+    /// Conditions of a drainage, for entry pressures.
+    pub entry: Option<Conditions>,
+    /// The hash of the geometry in hexadecimal digits.
+    pub geometry_hash: String,
+    /// The left, right, bottom and top side.
+    pub sides: [Side; 4],
+    /// The region of saturations and porosity, if it is not the whole domain.
+    pub region: Option<Bounds>,
+    /// What follows from the network alone.
+    pub(crate) derived: Arc<Derived>,
+}
+
+impl Configuration {
+    /// Capillary pressure p_n - p_w in Pa during invasion by a phase, at a meniscus of this curvature in the plane (1/m), positive if it bulges
+    /// into the wetting phase; NaN without a tension.
+    pub fn pressure(&self, invading: FluidPhase, curvature: f64) -> f64 {
+        self.tension.unwrap_or(f64::NAN) * self.curvature(invading, curvature)
+    }
+
+    /// (p_n - p_w)/σ in 1/m of such a meniscus, including the curvature by floor and lid.
+    pub(crate) fn curvature(&self, invading: FluidPhase, in_plane: f64) -> f64 {
+        self.depth_for(invading).map_or(in_plane, |depth| depth.curvature(in_plane))
+    }
+
+    /// Floor and lid with the angles for an invading phase; `None` in the plane.
+    pub fn depth_for(&self, invading: FluidPhase) -> Option<Depth> {
+        self.depth.map(|[drainage, imbibition]| if invading == FluidPhase::Wetting { imbibition } else { drainage })
+    }
+
+    /// The length of a period along x and y in m; `None` if not periodic.
+    pub(crate) fn periods(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|axis| self.periodic[axis].then(|| self.bounds.size()[axis]))
+    }
+
+    /// The reference of saturations, as text.
+    pub(crate) fn space(&self) -> &'static str {
+        if self.region.is_some() { "pore space of network.region without manifolds" } else { "pore space" }
+    }
+
+    /// Distance between floor and lid in m; 1 in the plane, where volumes and rates are per meter of depth.
+    pub(crate) fn thickness(&self) -> f64 {
+        self.network.depth.unwrap_or(1.0)
+    }
+}
+
+/// What follows from a network alone and takes long, found when it is first asked for and shared by all cases of the network.
+#[derive(Debug, Default)]
+pub(crate) struct Derived {
+    /// The conductances of all throats.
+    conductances: OnceLock<Vec<f64>>,
+    /// The permeabilities along x and y.
+    pub(super) permeabilities: [OnceLock<f64>; 2],
+}
+
+/// A network with its displacement and cached derived quantities.
+#[derive(Debug, Clone)]
+pub(crate) struct Model {
+    /// The static configuration.
+    pub(crate) config: Configuration,
+    /// The displacement; `None` if the network is only extracted.
+    pub(crate) cycles: Option<Cycles>,
+    entry_curvatures: OnceCell<Vec<f64>>,
+}
+
+impl Model {
+    /// A network in its initial state.
+    pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
+        Self { config, cycles, entry_curvatures: OnceCell::new() }
+    }
+
+    /// Entry curvatures of the throats of the network in drainage, in 1/m; `None` without a contact angle.
+    pub(crate) fn entry_curvatures(&self) -> Option<&[f64]> {
+        let Configuration { network, pores, entry, .. } = &self.config;
+        let conditions = entry.as_ref()?;
+        let throats = network.throats.len();
+        let find = || {
+            let known =
+                self.cycles.as_ref().map(|cycles| &cycles.displacement).filter(|it| it.events() == conditions.events);
+            let new = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(conditions, throats);
+            known.map_or_else(new, |displacement| displacement.entry_curvatures(conditions, throats))
+        };
+        Some(self.entry_curvatures.get_or_init(find))
+    }
+
+    /// Number of throats of the network whose measured entry pressure replaces the formula under given conditions.
+    pub(crate) fn measured_throats(&self, conditions: &Conditions) -> usize {
+        let Configuration { network, pores, .. } = &self.config;
+        let (throats, formula) = (network.throats.len(), Conditions { measured: Vec::new(), ..conditions.clone() });
+        let displacement = Displacement::new(network, pores, formula.clone());
+        let [with, without] = [conditions, &formula].map(|given| displacement.entry_curvatures(given, throats));
+        with.iter().zip(&without).filter(|(with, without)| with.is_finite() && with != without).count()
+    }
+
+    /// Entry pressures in Pa of all throats of the network; `None` without a contact angle or tension.
+    pub(crate) fn entry_pressures(&self) -> Option<Vec<f64>> {
+        self.config.tension?;
+        let pressure = |&curvature: &f64| self.config.pressure(FluidPhase::NonWetting, curvature);
+        Some(self.entry_curvatures()?.iter().map(pressure).collect())
+    }
+
+    /// The conductances of all throats of the network.
+    pub(crate) fn conductances(&self) -> &[f64] {
+        self.config.derived.conductances.get_or_init(|| conductances(&self.config.network))
+    }
+}

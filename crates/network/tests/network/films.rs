@@ -1,0 +1,236 @@
+//! Films of the wetting phase in the corners of a chip: what they hold, what they let out and in, and the throats that they close.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+use meniscus::run::execute::Mode;
+use meniscus::run::simulation::Unwatched;
+use meniscus_case::{Loaded, load};
+use meniscus_core::input::Overrides;
+use meniscus_geometry::interface::depth::corner_area;
+
+use crate::cases::{loaded, measures, named, run, to_the_end};
+
+const TENSION: f64 = 0.07;
+
+/// A case in a folder that lasts as long as it does.
+struct Case {
+    _folder: tempfile::TempDir,
+    path: PathBuf,
+}
+
+impl Case {
+    /// Shapes in a domain from the origin, with an angle in degrees of walls and plates, drained from the left.
+    fn new(size: [f64; 2], shapes: &str, depth: f64, deg: f64) -> Self {
+        let text = format!(
+            "format = 1\ntitle = \"Chambers and ducts\"\n[geometry]\nmin = [0.0, 0.0]\nmax = {size:?}\ndepth = {depth}\nshapes = [{shapes}]\n[network]\ninlet = \"left\"\noutlet = \"right\"\n\
+             films = true\n[network.interface]\ntension = {TENSION}\n[network.wetting.young]\ncontact-angle-deg = {deg:?}\n"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("case.toml");
+        std::fs::write(&path, text).unwrap();
+        Self { _folder: folder, path }
+    }
+
+    fn loaded(&self, set: &[&str]) -> Loaded {
+        loaded(&self.path, set)
+    }
+
+    fn measures(&self, set: &[&str]) -> BTreeMap<String, f64> {
+        measures(to_the_end(&self.loaded(set)).as_ref())
+    }
+}
+
+/// Rows of a table that a run leaves, by column.
+fn table(case: &Loaded, name: &str) -> Vec<BTreeMap<String, String>> {
+    let folder = tempfile::tempdir().unwrap();
+    run(case, folder.path(), Mode::New, &AtomicBool::new(false), &mut Unwatched);
+    let text = std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let row = |line: &str| head.iter().zip(line.split(',')).map(|(&name, cell)| (name.into(), cell.into())).collect();
+    text.lines().skip(1).map(row).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap()
+}
+
+/// Chambers in a channel of .24 mm along x, .6 mm apart, joined by throats of these widths (um) between discs at the top and at the bottom.
+fn chambers(widths: &[f64], is_mirrored: bool) -> ([f64; 2], String) {
+    let mut shapes = String::new();
+    let size = [6e-4 * widths.len() as f64, 2.4e-4];
+    for (index, width) in widths.iter().enumerate() {
+        let x = 6e-4 * index as f64 + 3e-4;
+        let x = if is_mirrored { size[0] - x } else { x };
+        for y in [0.0, 2.4e-4] {
+            let radius = 1.2e-4 - 0.5e-6 * width;
+            write!(shapes, "{{ disc = {{ center = [{x:e}, {y:e}], radius = {radius:e} }} }},").unwrap();
+        }
+    }
+    (size, shapes)
+}
+
+/// [Princen1969; Princen1970]
+#[test]
+fn the_films_of_a_straight_duct_hold_four_corners() {
+    let (width, depth) = (1e-4, 5e-5);
+    let channel = format!("{{ channel = {{ center = [5e-4, 5e-4], width = {width}, rotation-deg = 0.0 }} }}");
+    for deg in [0.0_f64, 20.0, 40.0] {
+        let duct = Case::new([1e-3, 1e-3], &channel, depth, deg);
+        let angle = deg.to_radians();
+        // The last two are so low that films would meet at half of the depth.
+        let meeting = 2.0 * TENSION * (angle.cos() - angle.sin()) / depth;
+        for pressure in [8e3, 1.2e4, 0.5 * meeting, 1.0] {
+            let found = duct.measures(&[&format!("network.stop.capillary-pressure={pressure}")]);
+            let radius = TENSION / f64::max(pressure, meeting);
+            let exact = 4.0 * corner_area(angle, angle) * radius * radius / (width * depth);
+            // At a low pressure the meniscus stands where a segment divides the duct, and films are behind it.
+            let (films, wetting) = (found["film-saturation"], found["final-wetting-saturation"]);
+            let passed = 1.0 - (wetting - films);
+            assert!((films / (passed * exact) - 1.0).abs() < 1e-9, "{deg} {pressure}: {found:?} {exact}");
+            assert!(passed == 1.0 || pressure < meeting && (passed - 0.5).abs() < 1e-9);
+            assert!((found["largest-capillary-pressure-Pa"] / pressure - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn films_of_floor_and_lid_with_angles_of_their_own_hold_what_their_corners_do() {
+    let channel = "{ channel = { center = [5e-4, 5e-4], width = 1e-4, rotation-deg = 0.0 } }";
+    let duct = Case::new([1e-3, 1e-3], channel, 5e-5, 30.0);
+    let lid = |deg: f64| format!("network.wetting.patches=[{{plate=\"lid\", contact-angle-deg={deg:?}}}]");
+    for deg in [10.0_f64, 50.0, 70.0] {
+        let found = duct.measures(&["network.stop.capillary-pressure=8e3", &lid(deg)]);
+        let (wall, radius) = (30.0_f64.to_radians(), TENSION / 8e3);
+        let area = 2.0 * (corner_area(wall, wall) + corner_area(wall, deg.to_radians()));
+        let exact = area * radius * radius / 5e-9;
+        assert!((found["film-saturation"] / exact - 1.0).abs() < 1e-9, "{deg}: {found:?} {exact}");
+    }
+}
+
+/// [LenormandZarconeSarr1983]
+#[test]
+fn a_throat_snaps_off_where_its_films_meet_and_what_is_behind_is_trapped() {
+    let (deg, depth) = (10.0_f64, 1e-4);
+    let (sin, cos) = deg.to_radians().sin_cos();
+    for is_mirrored in [false, true] {
+        let (size, shapes) = chambers(&[20.0, 30.0], is_mirrored);
+        let case = Case::new(size, &shapes, depth, deg);
+        let [inlet, outlet] = if is_mirrored { ["right", "left"] } else { ["left", "right"] };
+        let sides = [format!("network.inlet={inlet:?}"), format!("network.outlet={outlet:?}")];
+        let set = [sides[0].as_str(), &sides[1], "network.process=\"cycle\""];
+        let events = table(&case.loaded(&set), "events.csv");
+        let snapped: Vec<_> = events.iter().filter(|row| row["event"] == "snap-off").collect();
+        assert_eq!(snapped.len(), 1, "{events:?}");
+        let exact = 2.0 * TENSION * (cos - sin) / 20e-6;
+        let found = number(snapped[0], "capillary_pressure_Pa");
+        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+        // The chamber between both throats keeps its gas, but for the films in it.
+        let pores = table(&case.loaded(&set), "pores.csv");
+        let trapped: Vec<_> = pores.iter().filter(|row| row["trapped"] == "True").collect();
+        assert!(!trapped.is_empty() && trapped.len() < pores.len());
+        let volume =
+            |rows: &[&BTreeMap<String, String>], column| rows.iter().map(|row| number(row, column)).sum::<f64>();
+        let all: Vec<_> = pores.iter().collect();
+        let gas = volume(&trapped, "volume_m3") - volume(&trapped, "film_volume_m3");
+        let measures = case.measures(&set);
+        let share = gas / volume(&all, "volume_m3");
+        assert!((measures["trapped-saturation"] / share - 1.0).abs() < 1e-9, "{measures:?} {share}");
+        assert!((measures["residual-saturation"] / share - 1.0).abs() < 1e-9);
+        // Without films, water pushes all of it out.
+        let plain = case.measures(&[set[0], set[1], set[2], "network.films=false"]);
+        assert_eq!(plain["residual-saturation"], 0.0);
+    }
+}
+
+#[test]
+fn a_throat_that_films_closed_opens_again_at_its_entry_pressure() {
+    let (size, shapes) = chambers(&[24.0, 20.0, 30.0], false);
+    let case = Case::new(size, &shapes, 1e-4, 10.0);
+    let set = ["network.process=\"cycle\"", "network.cycles=2"];
+    let events = table(&case.loaded(&set), "events.csv");
+    let opened: Vec<_> = events.iter().filter(|row| row["event"] == "reconnection").collect();
+    assert_eq!(opened.len(), 1, "{events:?}");
+    let throats = table(&case.loaded(&set), "throats.csv");
+    let throat = throats.iter().find(|row| row["throat"] == opened[0]["throat"]).unwrap();
+    assert!((number(throat, "width_m") / 20e-6 - 1.0).abs() < 1e-6);
+    let (found, entry) = (number(opened[0], "meniscus_pressure_Pa"), number(throat, "entry_pressure_Pa"));
+    assert!((found / entry - 1.0).abs() < 1e-9, "{found} {entry}");
+}
+
+#[test]
+fn nothing_is_trapped_in_a_drainage_with_films() {
+    let of = |films: &str| {
+        let angle = "network.wetting={young={contact-angle-deg=20.0}}";
+        let set = [angle, "geometry.depth=50e-6", films, "expect=[]"];
+        measures(to_the_end(&loaded(&named("drainage"), &set)).as_ref())
+    };
+    let (with, without) = (of("network.films=true"), of("network.films=false"));
+    assert!(without["trapped-saturation"] > 0.05 && with["trapped-saturation"] == 0.0);
+    assert!((with["final-wetting-saturation"] / with["film-saturation"] - 1.0).abs() < 1e-9);
+    assert!(with["breakthrough-pressure-Pa"] == without["breakthrough-pressure-Pa"]);
+    assert!(!without.contains_key("film-saturation"));
+}
+
+#[test]
+fn the_curve_falls_on_in_drainage_after_the_last_event_and_rises_in_imbibition() {
+    let set = [
+        "network.wetting={young={contact-angle-deg=20.0}}",
+        "geometry.depth=50e-6",
+        "network.films=true",
+        "network.process=\"cycle\"",
+        "network.stop={capillary-pressure=5e4}",
+        "expect=[]",
+    ];
+    let case = loaded(&named("drainage"), &set);
+    let curve = table(&case, "capillary_pressure.csv");
+    let of = |half: &str| curve.iter().filter(|row| row["half_cycle"] == half).collect::<Vec<_>>();
+    let (drainage, imbibition) = (of("1"), of("2"));
+    assert!(drainage.windows(2).all(|pair| number(pair[1], "saturation") <= number(pair[0], "saturation") + 1e-12));
+    assert!(imbibition.windows(2).all(|pair| number(pair[1], "saturation") >= number(pair[0], "saturation") - 1e-12));
+    let last = drainage[drainage.len() - 1];
+    assert!((number(last, "capillary_pressure_Pa") / 5e4 - 1.0).abs() < 1e-12);
+    // Water fills what is open at its side at once, at the same pressure.
+    assert_eq!(last["capillary_pressure_Pa"], imbibition[0]["capillary_pressure_Pa"]);
+    assert!(number(imbibition[0], "saturation") > number(last, "saturation"));
+    // At the end of the drainage films alone hold water: their share goes with the square of 1/p.
+    let last_event = table(&case, "events.csv").into_iter().rfind(|row| row["half_cycle"] == "1").unwrap();
+    let ratio = 5e4 / number(&last_event, "capillary_pressure_Pa");
+    let shrunk = number(&last_event, "film_saturation") / number(last, "film_saturation");
+    assert!(ratio > 1.5 && (shrunk / (ratio * ratio) - 1.0).abs() < 1e-9, "{ratio} {shrunk}");
+    let end = measures(to_the_end(&case).as_ref());
+    let residual = end["residual-saturation"];
+    assert!(residual > 0.0 && residual < 1.0 && (residual - end["trapped-saturation"]).abs() < 1e-9, "{end:?}");
+}
+
+#[test]
+fn films_vanish_towards_45_degrees_and_in_a_deep_chip() {
+    let film = |set: &[&str]| {
+        let fixed = ["network.films=true", "network.stop={capillary-pressure=5e4}", "expect=[]"];
+        let set: Vec<&str> = set.iter().copied().chain(fixed).collect();
+        measures(to_the_end(&loaded(&named("drainage"), &set)).as_ref())["film-saturation"]
+    };
+    let angle = |deg: f64| format!("network.wetting={{young={{contact-angle-deg={deg:?}}}}}");
+    let some = film(&[&angle(20.0), "geometry.depth=50e-6"]);
+    // The cross-section goes with the square of the distance to 45 degrees.
+    assert!(some > 1e-4 && film(&[&angle(44.99), "geometry.depth=50e-6"]) < 1e-6 * some);
+    let deep = film(&[&angle(20.0), "geometry.depth=50e-2"]);
+    assert!((deep / some * 1e4 - 1.0).abs() < 1e-6, "{deep} {some}");
+}
+
+#[test]
+fn films_that_no_corner_holds_are_refused() {
+    let refused = |set: &[&str]| match load(&named("drainage"), &Overrides::parse(set).unwrap()) {
+        Ok(_) => panic!("{set:?}"),
+        Err(error) => error.render(),
+    };
+    let films = "network.films=true";
+    assert!(refused(&[films]).contains("add depth = 50e-6"));
+    let steep = "network.wetting={young={contact-angle-deg=45.0}}";
+    assert!(refused(&[films, steep, "geometry.depth=50e-6"]).contains("sum to 90 or more"));
+    // A lid that wets less leaves those on the floor.
+    let lid = "network.wetting={young={contact-angle-deg=40.0}, patches=[{plate=\"lid\", contact-angle-deg=60.0}]}";
+    assert!(load(&named("drainage"), &Overrides::parse(&[films, lid, "geometry.depth=50e-6"]).unwrap()).is_ok());
+}

@@ -1,0 +1,9 @@
+//! Whole runs of the direct simulation against exact solutions.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod contact_angles;
+mod error_bars;
+mod relative_permeability;
+mod validation;
