@@ -3,7 +3,7 @@ use meniscus::{Channel, Disc, Geometry, GeometrySpec, ShapeSpec, SolidSide, Vec2
 
 fn main() -> Result<(), meniscus::GeometryError> {
     let shapes = vec![
-        ShapeSpec::Channel(Channel { center: [0.0; 2], width: 2e-3, rotation_deg: 0.0 }),
+        ShapeSpec::Channel(Channel { center: [0.0; 2], width: 1.8e-3, rotation_deg: 0.0 }),
         ShapeSpec::Disc(Disc { center: [-0.5e-3, 0.0], radius: 0.4e-3 }),
         ShapeSpec::Disc(Disc { center: [0.5e-3, 0.0], radius: 0.4e-3 }),
     ];

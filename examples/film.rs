@@ -8,7 +8,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         solver.step(case.end)?;
     }
     for measure in solver.measures(&Series::default()) {
-        println!("{}: {:.5}", measure.name, measure.value);
+        println!("{}: {:.4e}", measure.name, measure.value);
     }
     Ok(())
 }

@@ -27,9 +27,7 @@ const WITHOUT_NUMBER: [&str; 11] = [
 ];
 
 /// What is wrong with the options that a drawing is read with, and not in the file.
-const OF_OPTIONS: [&str; 5] = [
-    // A question, answered by an option; the outline in question follows.
-    "the drawing can be read in two ways: ",
+const OF_OPTIONS: [&str; 4] = [
     "the unit of the drawing is not known",
     "there is no unit `",
     "`unit` does not apply to",
@@ -60,7 +58,9 @@ fn has_place(mistake: &Mistake) -> bool {
         return true;
     }
     let message = mistake.message.as_str();
-    if let Some(rest) = message.strip_prefix(&format!("{}, ", mistake.name)) {
+    // A question about an outline names it behind these words.
+    let of_question = message.strip_prefix("the drawing can be read in two ways: ");
+    if let Some(rest) = message.strip_prefix(&format!("{}, ", mistake.name)).or(of_question) {
         // `line 12, disc: the shape lies...`
         let place = rest.split([',', ':']).next().unwrap_or_default();
         // `LWPOLYLINE 2F`, whose handle may be without digits.

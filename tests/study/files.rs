@@ -6,6 +6,7 @@
 
 use std::path::Path;
 
+use crate::support::program::{all_at_once, shipped};
 use meniscus::study::load::load;
 use meniscus::study::runs::{plan, runs};
 use meniscus_core::input::InputError;
@@ -132,4 +133,16 @@ range = { from = 5e-5, to = 2e-5, count = 2 }
     // The same values give the same digest, whichever base case they came from.
     assert_eq!(planned[3].digest(), planned[7].digest());
     assert_ne!(planned[2].digest(), planned[3].digest());
+}
+
+#[test]
+fn every_shipped_study_can_be_planned() {
+    let folders = ["studies", "studies/thin-film", "studies/validation"];
+    let studies: Vec<_> = folders.into_iter().flat_map(|folder| shipped(folder, &["toml"])).collect();
+    all_at_once(&studies, |study| {
+        let study = load(study).unwrap_or_else(|error| panic!("{}", error.render()));
+        let runs = plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
+        // Two where a study holds two methods or two lengths against each other; a single run is a case.
+        assert!(runs.len() >= 2, "{}", study.name);
+    });
 }

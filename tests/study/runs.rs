@@ -4,9 +4,7 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::program::{
-    all_at_once, assert_code, assert_same_files, command, meniscus, report, shipped, stderr, stdout,
-};
+use crate::support::program::{assert_code, assert_same_files, command, meniscus, report, stderr, stdout};
 
 /// A small drop, 24 times: eight angles and three tensions.
 const STUDY: &str = r#"
@@ -374,18 +372,6 @@ fn several_studies_run_one_after_the_other_each_into_its_own_folder() {
     std::fs::write(at("wrong.toml"), "format = 1\n").unwrap();
     assert_code(&study("run", &["study.toml", "wrong.toml"], &["--out", "none"]), 3);
     assert!(!at("none").exists());
-}
-
-#[test]
-fn every_shipped_study_can_be_planned() {
-    let folders = ["studies", "studies/thin-film", "studies/validation"];
-    let studies: Vec<_> = folders.into_iter().flat_map(|folder| shipped(folder, &["toml"])).collect();
-    all_at_once(&studies, |study| {
-        let study = meniscus::study::load::load(study).unwrap_or_else(|error| panic!("{}", error.render()));
-        let runs = meniscus::study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
-        // Two where a study holds two methods or two lengths against each other; a single run is a case.
-        assert!(runs.len() >= 2, "{}", study.name);
-    });
 }
 
 #[test]

@@ -5,5 +5,6 @@ mod support;
 
 mod contact_angles;
 mod error_bars;
+mod own_spacing;
 mod relative_permeability;
 mod validation;

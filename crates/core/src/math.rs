@@ -112,8 +112,7 @@ pub fn halved([mut low, mut high]: [f64; 2], halvings: u32, is_below: impl Fn(f6
     [low, high]
 }
 
-/// Restricts faer to one thread from now on: the order of its sums would depend on the number of threads. This crate builds it without threads, but a program
-/// that uses this library may enable them.
+/// Restricts faer to one thread from now on: the order of its sums would depend on the number of threads. To be called before each factorization.
 pub fn factor_in_one_thread() {
     faer::set_global_parallelism(faer::Par::Seq);
 }

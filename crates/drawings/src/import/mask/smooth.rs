@@ -5,7 +5,7 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
 
-use meniscus_core::math::{Vec2, perpendicular};
+use meniscus_core::math::{Vec2, factor_in_one_thread, perpendicular};
 
 /// Weights of a second difference.
 const WEIGHTS: [f64; 3] = [1.0, -2.0, 1.0];
@@ -67,6 +67,7 @@ pub(super) fn smoothed(points: &[Vec2], is_closed: bool, reach: f64) -> Vec<Vec2
     let entry = |at: [usize; 3], [i, j]: [usize; 2]| Triplet::new(at[i], at[j], lambda * WEIGHTS[i] * WEIGHTS[j]);
     let penalty = triples.clone().flat_map(|at| (0..9).map(move |k| entry(at, [k / 3, k % 3])));
     let entries: Vec<_> = (0..n).map(|k| Triplet::new(k, k, 1.0)).chain(penalty).collect();
+    factor_in_one_thread();
     let matrix = SparseColMat::try_new_from_triplets(n, n, &entries).ok();
     let Some(factor) = matrix.and_then(|matrix| matrix.sp_cholesky(Side::Lower).ok()) else { return points.to_vec() };
     let mut smooth = vec![Vec2::zeros(); n];
