@@ -43,7 +43,7 @@ bar, that by the spacing included. A column without a head is named by its field
 `<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
 
 A stored result names the program that made it by a hash of its source: the first ten digits of the SHA-256 of the
-sorted paths and contents of `src` and of `Cargo.lock`, at the time of `run`. `write --check` lists the tables whose
+sorted paths and contents of `src`, of the sources in `crates` and of `Cargo.lock`, at the time of `run`. `write --check` lists the tables whose
 program has another source than the present one; that is no failure.
 """
 
@@ -83,7 +83,8 @@ def checksum(data: bytes) -> str:
 
 def program(root: Path) -> str:
     """The hash of the present source of the program."""
-    files = [path for path in (root / "src").rglob("*") if path.is_file()] + [root / "Cargo.lock"]
+    sources = [root / "src", *(root / "crates").glob("*/src")]
+    files = [path for source in sources for path in source.rglob("*") if path.is_file()] + [root / "Cargo.lock"]
     digest = hashlib.sha256()
     for name, path in sorted((path.relative_to(root).as_posix(), path) for path in files):
         digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")

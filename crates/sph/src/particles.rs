@@ -126,3 +126,9 @@ impl Particles {
         pick(&mut self.part, order);
     }
 }
+
+/// The largest speed in m/s relative to the mean velocity, which is Galilean invariant.
+pub(crate) fn relative_speed(velocity: &[Vec2]) -> f64 {
+    let mean = velocity.iter().sum::<Vec2>() / velocity.len() as f64;
+    largest(velocity.len(), |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1)
+}

@@ -7,7 +7,7 @@ use crate::frozen::FrozenInterface;
 use crate::measures::{DiscOf, Group, Subject, all, columns, permeability, relative, samples_of_chip};
 use crate::observe::Observation;
 use crate::output;
-use crate::particles::Particles;
+use crate::particles::{Particles, relative_speed};
 use crate::stages::Stages;
 use crate::warnings::warnings;
 use meniscus_core::math::{Bounds, Vec2};
@@ -196,6 +196,8 @@ impl Solver for SphSolver {
             ("kinetic_energy_J_per_m", self.kinetic_energy()),
             // Largest speed
             ("max_speed_m_per_s", speed),
+            // Largest speed relative to the mean velocity of both fluids
+            ("max_relative_speed_m_per_s", relative_speed(&flow.state.particles.velocity[..fluids])),
             // Root mean square of `V_0/V − 1`
             ("density_error", error),
             // Iterations of the last pressure solve

@@ -96,11 +96,16 @@ fn pieces_and_films(flow: &Flow, observed: &Observation, series: &Series) -> Opt
         return None;
     }
     let (percent, half) = (100.0 * share, 0.5 * flow.config.method.spacing);
+    let any_pieces = small_pieces > 0 || before.is_some();
     let before = before.map(|(most, time)| format!(" ({most} at t = {time:.4e} s)")).unwrap_or_default();
+    let pieces = if any_pieces {
+        format!("{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles{before}, and ")
+    } else {
+        String::new()
+    };
     Some(format!(
-        "{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles{before}, and films thinner than three particles with {percent:.1} % of \
-         the smaller phase, are not resolved: results that depend on them (numbers of pieces, trapped fluid, angles next to them) are not reliable; compare \
-         with sph.spacing = {half:.4e}"
+        "{pieces}films thinner than three particles with {percent:.1} % of the smaller phase, are not resolved: results that depend on them (numbers of pieces, \
+         trapped fluid, angles next to them) are not reliable; compare with sph.spacing = {half:.4e}"
     ))
 }
 
@@ -120,7 +125,7 @@ fn parasitic_currents(flow: &Flow, observed: &Observation, series: &Series) -> O
     let rows = series.rows.len();
     let late = rows - rows / 5;
     let last = |column: &str| series.column(column).skip(late).collect::<Vec<f64>>();
-    let (lengths, speeds) = (last("interface_length_m"), last("max_speed_m_per_s"));
+    let (lengths, speeds) = (last("interface_length_m"), last("max_relative_speed_m_per_s"));
     let (low, high) =
         lengths.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), l| (low.min(*l), high.max(*l)));
     if is_driven || lengths.len() < FEWEST || !observed.contact_lines.is_empty() || high - low > SAME_SHAPE * high {
@@ -134,8 +139,10 @@ fn parasitic_currents(flow: &Flow, observed: &Observation, series: &Series) -> O
     };
     let radius = (area / std::f64::consts::PI).sqrt();
     let scale = (m.tension / (fluid.density * radius)).sqrt();
-    let speed = speeds.into_iter().fold(0.0, f64::max);
-    (speed > LARGEST_CURRENT * scale).then(|| {
+    // Currents persist; in an oscillation the speed falls to a small fraction twice in each period.
+    let (lowest, speed) =
+        speeds.into_iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), v| (low.min(v), high.max(v)));
+    (lowest > LARGEST_CURRENT * scale).then(|| {
         format!(
             "a drop of constant shape has parasitic currents of up to {speed:.1e} m/s, Ca = {:.1e}, {:.1} % of sqrt(tension / (density R)): the surface force \
              drives them in a liquid of low viscosity (Oh = {:.1e}), and slower motions are not resolved; compare with a larger viscosity",

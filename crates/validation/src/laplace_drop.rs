@@ -27,7 +27,7 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let plates = flow.config.method.plates;
     let curvature = plates.map_or(1.0 / radius, |plates| -plates.depth.curvature_of_drop(-1.0 / radius));
     let scale = flow.config.method.tension * curvature;
-    let speeds = last(s.series, "max_speed_m_per_s", LAST);
+    let speeds = last(s.series, "max_relative_speed_m_per_s", LAST);
     let speed = speeds.into_iter().map(|(_, speed)| speed).fold(f64::NAN, f64::max);
     let capillary = flow.config.method.wetting_fluid.viscosity * speed / flow.config.method.tension;
     vec![
@@ -37,9 +37,10 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
                 jump.error.hypot(resolution_error(jump.mean, flow.config.method.tension, flow.config.method.kernel.h))
                     / scale,
             ),
-        measure("parasitic-capillary-number", capillary, "")
-            .by("drop viscosity times the largest speed of the records in the last tenth of the run over the \
-                 tension"),
+        measure("parasitic-capillary-number", capillary, "").by(
+            "drop viscosity times the largest speed, relative to the mean velocity, of the records in the last tenth \
+                 of the run over the tension",
+        ),
         measure("radius-scatter-ratio", scatter(s), "")
             .by("standard deviation over mean of the distance of the c = 0.5 contour from the center of the drop"),
     ]

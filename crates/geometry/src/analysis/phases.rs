@@ -89,7 +89,7 @@ impl CapillaryPressure {
 }
 
 impl CapillaryPressure {
-    /// The same where interfaces meet walls at the contact `angle` (degrees), measured through the wetting phase.
+    /// The same where interfaces meet walls at the contact `angle` (degrees), measured through the phase with the larger one.
     pub fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
         let factor = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
         self.standard_error.hypot(error_by_factor(factor, self.value, tension, h))

@@ -41,10 +41,11 @@ fn smallest_distance(flow: &Flow) -> f64 {
     distances.fold(f64::INFINITY, f64::min) / flow.config.method.spacing
 }
 
-/// The larger of the measured and the requested contact angle in degrees; 0 without one.
+/// The angle in degrees at which a phase meets walls, through the phase with the larger one, of the measured and the requested; 90 without one.
 fn flattest_angle(s: &Subject) -> f64 {
-    let requested = s.flow.config.method.wetting.map_or(0.0, |model| model.static_angle().to_degrees());
-    requested.max(s.observed.angle().mean_deg)
+    let requested = s.flow.config.method.wetting.map_or(90.0, |model| model.static_angle().to_degrees());
+    let through_either = |angle: f64| angle.max(180.0 - angle);
+    through_either(requested).max(through_either(s.observed.angle().mean_deg))
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {

@@ -5,8 +5,7 @@ use super::intermediate::{Corrected, Predicted, Projected};
 use crate::configuration::Configuration;
 use crate::fields::Fields;
 use crate::neighborhood::Neighborhood;
-use crate::parallel::largest;
-use crate::particles::Phase;
+use crate::particles::{Phase, relative_speed};
 use crate::surface_force::SurfaceForce;
 use crate::terms::sharpening::Sharpening;
 use crate::terms::shifting;
@@ -22,12 +21,6 @@ const CLOSEST_TO_WALL: f64 = 0.05;
 
 /// In a corner a particle is set back from one wall after the other, at most this many times; in a sharp wedge the next step continues.
 const SET_BACKS: usize = 4;
-
-/// The largest speed in m/s relative to the mean velocity, which is Galilean invariant.
-pub(super) fn relative_speed(velocity: &[Vec2]) -> f64 {
-    let mean = velocity.iter().sum::<Vec2>() / velocity.len() as f64;
-    largest(velocity.len(), |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1)
-}
 
 /// Fluid and buffer particles at the end of a step.
 pub(super) struct Motion {

@@ -2,11 +2,11 @@
 
 use super::implicit_viscosity;
 use super::intermediate::{Damped, Predicted};
-use super::motion::relative_speed;
 use crate::fields::Fields;
 use crate::method::PressureGradient;
 use crate::open::InteriorPoints;
 use crate::parallel::{each, largest, values};
+use crate::particles::relative_speed;
 use crate::surface_force::SurfaceForce;
 use crate::terms::pressure_gradient;
 use crate::time_step::landing;

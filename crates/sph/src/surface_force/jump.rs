@@ -9,7 +9,6 @@ use crate::neighborhood::Neighborhood;
 use crate::pairs::Pairs;
 use crate::parallel::{GRAIN, values};
 use crate::surface_force::fit::{Fitted, WallFit};
-use crate::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 use crate::view::View;
 use meniscus_core::math::{LINE_MOMENT, Vec2};
 use meniscus_geometry::interface::depth::Depth;
@@ -20,8 +19,8 @@ const PASSES: usize = 1;
 /// Relative attenuation of a wave with wavenumber k by the kernel average, over k²h²: half its second moment, 5 h²/18 along each direction.
 const LOSS_OF_A_PASS: f64 = 5.0 / 36.0;
 
-/// Relative attenuation by a circle fit, over k²h²: k² r²/(4s + 14) for its stencil r and the weight (1 − d²/r²)^s.
-const LOSS_OF_THE_FIT: f64 = STENCIL_RADIUS * STENCIL_RADIUS / (4 * SMOOTHNESS + 14) as f64;
+/// Relative attenuation by a circle fit, over k²h²: exp(−k²h²/4) is the transform of the weight exp(−d²/h²).
+const LOSS_OF_THE_FIT: f64 = 0.25;
 
 /// Factor on the attenuation of all passes in the deconvolution, so that it also compensates for those of color and fit.
 const DECONVOLUTION: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);

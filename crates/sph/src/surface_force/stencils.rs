@@ -12,9 +12,6 @@ use meniscus_geometry::interface::weighted_circle::{WeightedCircle, WeightedPoin
 /// Radius r of the stencil of a fit over h.
 pub(crate) const STENCIL_RADIUS: f64 = 3.0;
 
-/// A point at the distance d has the weight (1 − d²/r²) to this power. With a power of two, waves of two to three spacings change sign.
-pub(crate) const SMOOTHNESS: i32 = 6;
-
 /// Number of times a stencil is moved to the closest point of its particle: by the circle around the nearest point, then by that around the
 /// closest point found.
 const CLOSEST_POINT_PASSES: usize = 2;
@@ -27,6 +24,21 @@ const SAME_PIECE: f64 = 0.3;
 
 /// Largest curvature over 1/h: smaller drops are not resolved.
 const LARGEST_CURVATURE: f64 = 0.75;
+
+/// Weight of a point at the squared distance `d2`, over h², from the middle of a stencil: a Gaussian, less its value at the end of the stencil.
+///
+/// A fit multiplies the curvature of a wave by the transform of the function whose second derivative is the weight times a quadratic polynomial. For a
+/// Gaussian this is a Gaussian, positive for all waves. With (1 − d²/r²)^6 it is negative for waves of 1.7 to 2.2 spacings, so that a zigzag of the
+/// particles grows in a liquid of low viscosity.
+fn weight(d2: f64) -> f64 {
+    (-d2).exp() - (-STENCIL_RADIUS * STENCIL_RADIUS).exp()
+}
+
+/// Weight of a point in a fit that is constrained to the contact angle: (1 − d²/r²)^6, wider in the middle and zero at the end of the stencil with all of five
+/// derivatives, so that points far from the line, where a moving interface bends, count less.
+fn weight_at_wall(d2: f64) -> f64 {
+    (1.0 - d2 / (STENCIL_RADIUS * STENCIL_RADIUS)).max(0.0).powi(6)
+}
 
 /// Signed distance in m and normal of the wall at a point.
 pub(crate) type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
@@ -106,14 +118,20 @@ impl<'a> Interface<'a> {
             let index = i as usize;
             let d2 = r.norm_squared();
             if d2 < reach2 && self.points[index].normal.dot(&normal) > SAME_PIECE {
-                near.push(WeightedPoint {
-                    index,
-                    x: -r,
-                    weight: self.points[index].weight * (1.0 - d2 / reach2).powi(SMOOTHNESS),
-                });
+                let weight = self.points[index].weight * weight(d2 / (self.h * self.h));
+                near.push(WeightedPoint { index, x: -r, weight });
             }
         });
         near
+    }
+
+    /// The points of a stencil with the weights of a fit that is constrained to the contact angle.
+    pub(super) fn weighted_for_wall(&self, near: &[WeightedPoint]) -> Vec<WeightedPoint> {
+        let weighted = |q: &WeightedPoint| {
+            let weight = self.points[q.index].weight * weight_at_wall(q.x.norm_squared() / (self.h * self.h));
+            WeightedPoint { weight, ..*q }
+        };
+        near.iter().map(weighted).collect()
     }
 
     /// The unconstrained circle through a stencil with about the unit `normal`.

@@ -11,6 +11,7 @@ mod support {
 
 mod analysis;
 mod counted_work;
+mod curvature_of_waves;
 mod depth;
 mod fitted_interface;
 mod fitted_walls;
@@ -22,3 +23,4 @@ mod stream;
 mod terms;
 mod viscosity;
 mod walls;
+mod warnings;
