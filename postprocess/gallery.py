@@ -43,8 +43,8 @@ bar, that by the spacing included. A column without a head is named by its field
 `<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
 
 A stored result names the program that made it by a hash of its source: the first ten digits of the SHA-256 of the
-sorted paths and contents of `src`, of the sources in `crates` and of `Cargo.lock`, at the time of `run`. `write --check` lists the tables whose
-program has another source than the present one; that is no failure.
+sorted paths and contents of `src`, of the sources in `crates` and of `Cargo.lock`, at the time of `run`. `write
+--check` lists the tables whose program has another source than the present one; that is no failure.
 """
 
 import argparse

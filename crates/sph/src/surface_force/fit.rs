@@ -240,7 +240,7 @@ mod tests {
         for n in directions(0.0).take(30) {
             let [inside, outside] = [0.75, 1.25].map(|r| fit.curvature(r * n).unwrap());
             assert!((inside - outside).abs() < 1e-2, "{inside} inside, {outside} outside");
-            assert!((inside - 1.0 - left * bump(&n)).abs() < 2e-2, "{inside} at {}", bump(&n));
+            assert!((inside - 1.0 - left * bump(&n)).abs() < 1e-2, "{inside} at {}", bump(&n));
         }
     }
 

@@ -1,16 +1,13 @@
 //! Warnings: what moves by itself is no current of the method.
 
-use crate::support::flow::solver;
+use crate::support::flow::{equal_fluids, solver};
 use meniscus_core::solver::{Series, Solver};
 
 /// The warnings at the end of a run of a free drop of a thin liquid, with `records` until `end` (s).
 fn warnings(wetting: &str, velocity: &str, end: f64, records: u32) -> Vec<String> {
-    let sides = ["left", "right", "bottom", "top"].map(|side| format!("{side} = \"periodic\"\n")).concat();
-    let fluid = "density = 1000.0\nviscosity = 1.2e-3\n";
     let mut solver = solver(&format!(
-        "format = 1\ntitle = \"A drop\"\n[geometry]\nmin = [-8.0e-4, -8.0e-4]\nmax = [8.0e-4, 8.0e-4]\n[time]\nend = 1.0\n\
-         [sph]\nspacing = 5.0e-5\n[sph.phases.wetting]\n{fluid}[sph.phases.non-wetting]\n{fluid}[sph.interface]\ntension = 0.02\n\
-         [sph.sides]\n{sides}[[sph.initial.wetting]]\n{wetting}\n[sph.initial.velocity]\n{velocity}\n"
+        "{}[[sph.initial.wetting]]\n{wetting}\n[sph.initial.velocity]\n{velocity}\n",
+        equal_fluids(8.0e-4, 5.0e-5, 1.2e-3)
     ));
     let mut series = Series::default();
     for record in 0..=records {
