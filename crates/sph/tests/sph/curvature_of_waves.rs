@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::support::flow::{equal_fluids, flow, solver};
+use crate::equal_fluids::equal_fluids;
+use crate::support::flow::{flow, solver};
 use meniscus_core::math::{Vec2, perpendicular};
 use meniscus_core::solver::Solver;
 use meniscus_sph::solver::SphSolver;

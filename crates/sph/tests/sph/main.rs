@@ -13,6 +13,7 @@ mod analysis;
 mod counted_work;
 mod curvature_of_waves;
 mod depth;
+mod equal_fluids;
 mod fitted_interface;
 mod fitted_walls;
 mod open_sides;

@@ -1,6 +1,7 @@
 //! Warnings: what moves by itself is no current of the method.
 
-use crate::support::flow::{equal_fluids, solver};
+use crate::equal_fluids::equal_fluids;
+use crate::support::flow::solver;
 use meniscus_core::solver::{Series, Solver};
 
 /// The warnings at the end of a run of a free drop of a thin liquid, with `records` until `end` (s).
