@@ -141,8 +141,7 @@ pub enum SolverError {
     },
     /// The time step is far below the static limits.
     #[error(
-        "the time step fell to {dt:.3e} s, below {smallest:.3e} s, limited by {limit}, at time {time:.6e} s (step {step}), \
-         fastest particle at ({:.4e}, {:.4e}) m", position.x, position.y
+        "the time step fell to {dt:.3e} s, below {smallest:.3e} s, limited by {limit}, at time {time:.6e} s (step {step}): {cause}"
     )]
     TimeStep {
         /// The time step in s.
@@ -155,8 +154,8 @@ pub enum SolverError {
         time: f64,
         /// Step.
         step: u64,
-        /// Position of the fastest particle in m.
-        position: Vec2,
+        /// What is too fast, where, and the remedy.
+        cause: String,
     },
     /// A flow rate is prescribed at a side through which nothing can flow.
     #[error(

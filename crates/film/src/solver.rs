@@ -67,8 +67,9 @@ impl ThinFilmSolver {
         match stuck {
             FailedStep::Inaccurate(dt) => {
                 let dt = dt * self.observed.surroundings.scales.time;
-                let position = Vec2::new(self.observed.fastest().1 * self.observed.surroundings.scales.length, 0.0);
-                SolverError::TimeStep { dt, smallest: dt, limit: "accuracy", time, step, position }
+                let x = self.observed.fastest().1 * self.observed.surroundings.scales.length;
+                let cause = format!("the film is fastest at x = {x:.4e} m; take a smaller thin-film.spacing");
+                SolverError::TimeStep { dt, smallest: dt, limit: "accuracy", time, step, cause }
             }
             FailedStep::Negative => SolverError::BlowUp {
                 what: format!(

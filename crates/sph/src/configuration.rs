@@ -2,7 +2,7 @@
 
 use crate::domain::{Domain, WallQuery};
 use crate::method::{Method, PressureGradient};
-use crate::open::Open;
+use crate::open::{Open, OpenSide};
 use crate::wetting::wall;
 use meniscus_core::math::{Vec2, perpendicular};
 use meniscus_wetting::Wetting;
@@ -74,5 +74,13 @@ impl Configuration {
     pub(crate) fn is_near_fluid(&self, x: Vec2) -> bool {
         let support = self.method.kernel.support();
         self.open.sides.iter().all(|side| side.overshoot(x) < support)
+    }
+
+    /// Weight of shifting and density-error correction for a fluid particle at `x` (m): 0 at a side with a given velocity, since buffers have neither, and 1 from
+    /// the distance h on. A row that enters would otherwise receive both at once, as an impulse.
+    pub(crate) fn weight_of_corrections(&self, x: Vec2) -> f64 {
+        let sides = self.open.sides.iter().filter(|side| side.given_pressure().is_none());
+        let weight = |side: &OpenSide| (-side.overshoot(x) / self.method.kernel.h).clamp(0.0, 1.0);
+        sides.map(weight).fold(1.0, f64::min)
     }
 }

@@ -5,6 +5,7 @@ use super::intermediate::{Corrected, Predicted, Projected};
 use crate::configuration::Configuration;
 use crate::fields::Fields;
 use crate::neighborhood::Neighborhood;
+use crate::parallel::change_each;
 use crate::particles::{Phase, relative_speed};
 use crate::surface_force::SurfaceForce;
 use crate::terms::sharpening::Sharpening;
@@ -63,7 +64,8 @@ impl View<'_, Fields> {
         }
         keep_flow_rates(config, responses, dt, &old[..fluids], &mut position[..fluids]);
         let wall_distance = &self.fields.bulk.wall_distance;
-        let set_back = set_back(config, wall_distance, &mut position[..fluids], &mut velocity[..fluids]);
+        let from = &old[..fluids];
+        let set_back = set_back(config, wall_distance, from, &mut position[..fluids], &mut velocity[..fluids]);
         Ok(Motion { position, velocity, set_back })
     }
 
@@ -88,6 +90,9 @@ impl View<'_, Fields> {
             sharpening.displace(&self.neighborhood.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
         } else if diffusion == 0.0 {
             return;
+        }
+        if !self.config.open.sides.is_empty() {
+            change_each(&mut by, |a, by| *by *= self.config.weight_of_corrections(position[a]));
         }
         let mut all = velocity.to_vec();
         all.extend_from_slice(&self.state.particles.velocity[self.state.particles.moving()..]);
@@ -119,7 +124,13 @@ impl View<'_, Fields> {
 }
 
 /// Sets back fluid particles that came too close to walls or sides, and counts them; `wall_distance` (m) is that before the step.
-fn set_back(config: &Configuration, wall_distance: &[f64], position: &mut [Vec2], velocity: &mut [Vec2]) -> u64 {
+fn set_back(
+    config: &Configuration,
+    wall_distance: &[f64],
+    from: &[Vec2],
+    position: &mut [Vec2],
+    velocity: &mut [Vec2],
+) -> u64 {
     let mut count = 0;
     let closest = CLOSEST_TO_WALL * config.method.spacing;
     let reach = closest + LARGEST_MOVE * config.method.kernel.h;
@@ -136,11 +147,17 @@ fn set_back(config: &Configuration, wall_distance: &[f64], position: &mut [Vec2]
             }
         }
     }
-    // No fluid leaves through a side with a given velocity: particles shifted there are set back.
+    // No fluid leaves through a side with a given velocity: a particle that would is set back, with that velocity along the normal.
     for side in config.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
-        for x in position.iter_mut().filter(|x| side.overshoot(**x) > -closest) {
-            *x = side.projected(*x, -closest);
-            count += 1;
+        for ((x, v), from) in position.iter_mut().zip(velocity.iter_mut()).zip(from) {
+            // A particle that has just entered is nearer, and stays until it has moved on.
+            let nearest = side.overshoot(*from).max(-closest);
+            if side.overshoot(*x) > nearest {
+                *x = side.projected(*x, nearest);
+                let given = side.given_velocity(*x).unwrap_or_default();
+                v[side.axis()] = given[side.axis()];
+                count += 1;
+            }
         }
     }
     for mirror in &config.domain.mirrors {

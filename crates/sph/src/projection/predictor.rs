@@ -6,7 +6,7 @@ use crate::fields::Fields;
 use crate::method::PressureGradient;
 use crate::open::InteriorPoints;
 use crate::parallel::{each, largest, values};
-use crate::particles::relative_speed;
+use crate::particles::{Phase, relative_speed};
 use crate::surface_force::SurfaceForce;
 use crate::terms::pressure_gradient;
 use crate::time_step::landing;
@@ -44,9 +44,9 @@ impl View<'_, Fields> {
             .tighter(longest, "acceleration");
         let smallest = self.config.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
-            let position = particles.position.get(fastest_particle).copied().unwrap_or_default();
-            let (dt, limit, time) = (step.dt, step.limit, self.state.time);
-            return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, position });
+            let (dt, limit, time, cause) =
+                (step.dt, step.limit, self.state.time, self.cause_of_speed(fastest_particle));
+            return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, cause });
         }
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
@@ -70,6 +70,33 @@ impl View<'_, Fields> {
         velocity[moving..particles.len()].fill(Vec2::zeros());
         let velocity = self.neighborhood.images.velocity_field(velocity);
         Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, interior, damped })
+    }
+
+    /// What makes the particle `a` the fastest one, and the remedy.
+    fn cause_of_speed(&self, a: usize) -> String {
+        let particles = &self.state.particles;
+        let Some((&x, speed)) = particles.position.get(a).zip(particles.velocity.get(a).map(|v| v.norm())) else {
+            return "there are no particles".into();
+        };
+        let sides = &self.config.open.sides;
+        let inlet = sides.iter().find(|side| side.overshoot(x) >= 0.0 && side.given_pressure().is_none());
+        match (inlet, particles.phase[a]) {
+            (Some(side), _) => {
+                let name = side.name();
+                format!(
+                    "fluid comes in at {speed:.3e} m/s through the side `{name}`; lower its velocity or flow rate in sph.sides.open.{name}"
+                )
+            }
+            (None, Phase::Solid) => format!("a wall moves at {speed:.3e} m/s; lower sph.sides.speed"),
+            (None, phase) => {
+                let phase = if phase == Phase::Wetting { "wetting" } else { "non-wetting" };
+                format!(
+                    "a {phase} particle at ({:.4e}, {:.4e}) m has reached {speed:.3e} m/s; the last frame shows where it comes from, \
+                     and a smaller sph.spacing or sph.numerics.time-step-factor may prevent it",
+                    x.x, x.y
+                )
+            }
+        }
     }
 
     /// Replaces the `acceleration` (m/s²) of the forces at the beginning of a step of length `dt` (s) by that with implicit viscosity, if the

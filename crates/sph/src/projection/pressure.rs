@@ -225,7 +225,11 @@ impl View<'_, Fields> {
 
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
     fn density_error(&self, a: usize) -> f64 {
-        if a < self.state.particles.fluids { self.config.method.volume / self.fields.bulk.volume[a] - 1.0 } else { 0.0 }
+        if a >= self.state.particles.fluids {
+            return 0.0;
+        }
+        let weight = self.config.weight_of_corrections(self.state.particles.position[a]);
+        weight * (self.config.method.volume / self.fields.bulk.volume[a] - 1.0)
     }
 
     /// −∇φ/ρ of the fluid particles.
