@@ -69,15 +69,11 @@ impl Stages {
         })
     }
 
-    /// The last two rows of the series within a stage, including the row at its start; `None` if it has fewer.
-    pub(crate) fn last_rows<'s>(&self, series: &'s Series, stage: usize) -> Option<[&'s [f64]; 2]> {
+    /// The rows of the series within a stage, from the one at its start to the one at its end.
+    pub(crate) fn rows<'s>(&self, series: &'s Series, stage: usize) -> Vec<&'s [f64]> {
         let slack = SAME * self.length;
         let (from, to) = (self.start(stage) - slack, self.start(stage + 1) + slack);
-        let rows: Vec<&Vec<f64>> = series.rows.iter().filter(|row| (from..=to).contains(&row[0])).collect();
-        match rows[..] {
-            [.., before, last] => Some([before, last]),
-            _ => None,
-        }
+        series.rows.iter().map(Vec::as_slice).filter(|row| (from..=to).contains(&row[0])).collect()
     }
 
     fn start(&self, stage: usize) -> f64 {
@@ -137,9 +133,7 @@ mod tests {
         let stages = turning();
         let rows = [0.0, 0.25, 0.5, 0.75, 1.0].map(|time| vec![time]).to_vec();
         let series = Series { columns: vec!["time_s".into()], rows };
-        let times = |stage| stages.last_rows(&series, stage).map(|rows| rows.map(|row| row[0]));
-        assert_eq!((times(0), times(1)), (Some([0.25, 0.5]), Some([0.75, 1.0])));
-        let half = Series { rows: series.rows[..2].to_vec(), ..series.clone() };
-        assert_eq!(stages.last_rows(&half, 1), None);
+        let times = |stage| stages.rows(&series, stage).iter().map(|row| row[0]).collect::<Vec<f64>>();
+        assert_eq!((times(0), times(1)), (vec![0.0, 0.25, 0.5], vec![0.5, 0.75, 1.0]));
     }
 }
