@@ -60,6 +60,13 @@ impl Drift {
         Self { left: if is_off { self.left.max(self.off) } else { self.left }, ..self }
     }
 
+    /// The same for a quantity that follows a column of the `series` and has the signed `way` to go to the only value at which it can be at rest, the column
+    /// the way `of_column`: all of it is left if it goes there.
+    pub(crate) fn over(self, series: &Series, column: &str, of_column: f64, way: f64) -> Self {
+        let goes = windows(series, column).is_some_and(|windows| approaches(&windows, of_column));
+        Self { left: if goes { self.left.max(way.abs()) } else { self.left }, ..self }
+    }
+
     /// The same for a quantity that changes by `factor` times as much.
     pub(crate) fn times(self, factor: f64) -> Self {
         let size = factor.abs();

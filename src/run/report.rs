@@ -190,6 +190,7 @@ pub(crate) fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> Wa
 pub(crate) fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) -> BTreeMap<String, Reading> {
     // Adding zero turns minus zero into zero.
     let finite = |value: f64| value.is_finite().then_some(value + 0.0);
+    let has_one_angle = watched.iter().any(|one| one.kind.has_one_angle());
     measures
         .into_iter()
         .map(|m| {
@@ -199,7 +200,11 @@ pub(crate) fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watch
             let kind = of_it.map(|one| one.kind);
             let drift = match (of_it, m.moves_with) {
                 (Some(one), _) => Drift::of_watched(series, *one, m.value),
-                (None, Some(with)) => Drift::of(series, with.column).map(|drift| drift.times(with.factor)),
+                (None, Some(with)) => {
+                    let drift = Drift::of(series, with.column).map(|drift| drift.times(with.factor));
+                    let way = with.at_rest.filter(|_| has_one_angle).map_or(0.0, |at_rest| at_rest - m.value);
+                    drift.map(|drift| drift.over(series, with.column, way / with.factor, way))
+                }
                 (None, None) => None,
             };
             let drift = drift.map(|drift| drift.beside(at_one_time.unwrap_or(f64::INFINITY)));
@@ -288,6 +293,16 @@ mod tests {
         let moving = found(&ratio.clone().moving_with("base_m", 4.0));
         let motion = moving.not_at_rest.unwrap();
         assert!((motion.rate + 4.0).abs() < 1e-9 && moving.uncertainty.unwrap() > 1.0, "{motion:?}");
-        assert_eq!(found(&ratio.moving_with("no_such_column", 4.0)).uncertainty, Some(0.01));
+        assert_eq!(found(&ratio.clone().moving_with("no_such_column", 4.0)).uncertainty, Some(0.01));
+        // Spreading is a power law: the whole way is left to a drop whose lines can rest at one angle only.
+        let kind =
+            |at_rest| Quantity::Angle { energy: "", length: "", tension: 1.0, at_rest: Some(at_rest), pins: false };
+        let of = |at_rest: [f64; 2], end: f64| {
+            let watched = [Watched { column: "contact_angle_deg", kind: kind(at_rest) }];
+            let ratio = ratio.clone().moving_with("base_m", 4.0).resting_at(end);
+            readings(vec![ratio], &series, &watched).remove("base-ratio").unwrap().uncertainty.unwrap()
+        };
+        assert!(of([60.0; 2], -50.0) > 54.0 && of([50.0, 60.0], -50.0) < 20.0, "{}", of([60.0; 2], -50.0));
+        assert!(of([60.0; 2], 50.0) < 20.0, "a drop that recedes");
     }
 }

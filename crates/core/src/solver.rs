@@ -74,6 +74,8 @@ pub struct MovesWith {
     pub column: &'static str,
     /// Ratio of a change of the measure to that of the column.
     pub factor: f64,
+    /// The value of the measure where every contact line is at the requested angle, if known.
+    pub at_rest: Option<f64>,
 }
 
 impl Measure {
@@ -89,7 +91,13 @@ impl Measure {
 
     /// The same measure, which varies with a `column` of the series: changes of the column times `factor` are those of the measure.
     pub fn moving_with(self, column: &'static str, factor: f64) -> Self {
-        Self { moves_with: Some(MovesWith { column, factor }), ..self }
+        Self { moves_with: Some(MovesWith { column, factor, at_rest: None }), ..self }
+    }
+
+    /// The same measure, which varies with a column and has this value where every contact line is at the requested angle.
+    pub fn resting_at(self, value: f64) -> Self {
+        let moves_with = self.moves_with.map(|with| MovesWith { at_rest: Some(value), ..with });
+        Self { moves_with, ..self }
     }
 }
 
@@ -268,6 +276,11 @@ impl Quantity {
             Self::Saturation => [0.0, 1.0],
             Self::Pressure { .. } | Self::Energy { .. } => [f64::NEG_INFINITY, f64::INFINITY],
         }
+    }
+
+    /// Whether every contact line can rest at one angle only.
+    pub fn has_one_angle(self) -> bool {
+        matches!(self, Self::Angle { at_rest: Some([least, most]), pins: false, .. } if least == most)
     }
 
     /// A change that is negligible, for a quantity measured without an error bar: one percent for a saturation.

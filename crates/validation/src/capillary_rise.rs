@@ -29,18 +29,11 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let [highest, lowest] = [peak, low].map(|row| extremum(&times, &heights, row));
     let method = "the point of the interface that is nearest to the side of entry, over all records, by the parabola through the three records there";
     vec![
-        measure("peak-apex-m", highest.value, "m")
-            .by(format!("largest distance of {method}"))
-            .with_uncertainty(highest.value_error),
-        measure("peak-time-s", highest.time, "s")
-            .by(format!("time of the largest distance of {method}"))
-            .with_uncertainty(highest.time_error),
-        measure("minimum-apex-m", lowest.value, "m")
-            .by(format!("least distance after the peak of {method}"))
-            .with_uncertainty(lowest.value_error),
+        measure("peak-apex-m", highest.value, "m").by(format!("largest distance of {method}")),
+        measure("peak-time-s", highest.time, "s").by(format!("time of the largest distance of {method}")),
+        measure("minimum-apex-m", lowest.value, "m").by(format!("least distance after the peak of {method}")),
         measure("minimum-time-s", lowest.time, "s")
-            .by(format!("time of the least distance after the peak of {method}"))
-            .with_uncertainty(lowest.time_error),
+            .by(format!("time of the least distance after the peak of {method}")),
         measure("final-apex-m", last, "m")
             .by("distance of the point of the interface nearest to the side of entry, at the end"),
     ]

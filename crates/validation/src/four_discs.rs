@@ -14,7 +14,6 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let exact = disc_pair(s).and_then(|pair| pair.liquid_between_four(s.observed.areas.wetting));
     let over_exact = |curvature: f64| exact.map_or(f64::NAN, |exact| curvature / exact.curvature);
     let (pressure, tension) = (s.observed.capillary_pressure, s.flow.config.method.tension);
-    let pressure_error = pressure.uncertainty(tension, s.flow.config.method.kernel.h);
     vec![
         measure("interface-curvature-per-m", mean, "1/m")
             .by("mean over the fitted menisci, negative where the wetting liquid is concave")
@@ -24,6 +23,6 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
             .with_uncertainty(error / mean.abs()),
         measure("capillary-pressure-ratio", over_exact(pressure.value / tension), "")
             .by("capillary pressure over that of the exact menisci with the same area and the requested angle")
-            .with_uncertainty(over_exact(pressure_error / tension).abs()),
+            .with_uncertainty(over_exact(s.capillary_pressure_error() / tension).abs()),
     ]
 }

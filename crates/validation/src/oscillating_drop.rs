@@ -116,10 +116,8 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
         "damped oscillation fitted to the elongation of the wetting phase along x, without the first quarter period";
     let over = "over that of the linear viscous solution for a drop in an equal fluid, fitted at the same times";
     vec![
-        measure("period-s", period, "s")
-            .by(method)
-            .with_uncertainty(fit.map(|fit| period * fit.errors[0] / fit.frequency)),
-        measure("decay-rate", decay, "1/s").by(method).with_uncertainty(fit.map(|fit| fit.errors[1])),
+        measure("period-s", period, "s").by(method),
+        measure("decay-rate", decay, "1/s").by(method),
         measure("period-ratio", exact.map_or(f64::NAN, |e| period * e.frequency / TAU), "").by(over),
         measure("decay-rate-ratio", exact.map_or(f64::NAN, |e| decay / e.decay), "").by(over),
     ]

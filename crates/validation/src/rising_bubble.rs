@@ -57,12 +57,9 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
         measure("rise-center-m", s.series.column("bubble_center_m").last().unwrap_or(f64::NAN), "m")
             .by("center of the wetting particles against gravity at the end"),
         measure("max-rise-velocity", fastest.value, "m/s")
-            .by(format!("largest mean speed of the wetting particles against gravity {between}"))
-            .with_uncertainty(fastest.value_error),
-        measure("min-circularity", least.value, "")
-            .by(format!(
-                "least circumference of the circle of equal area over the length of the c = 0.5 contour {between}"
-            ))
-            .with_uncertainty(least.value_error),
+            .by(format!("largest mean speed of the wetting particles against gravity {between}")),
+        measure("min-circularity", least.value, "").by(format!(
+            "least circumference of the circle of equal area over the length of the c = 0.5 contour {between}"
+        )),
     ]
 }

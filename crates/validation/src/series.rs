@@ -14,10 +14,6 @@ pub(crate) struct Extremum {
     pub(crate) time: f64,
     /// The value, in the unit of the column.
     pub(crate) value: f64,
-    /// Standard uncertainty of the value: the correction by the parabola.
-    pub(crate) value_error: f64,
-    /// Standard uncertainty of the time in s: half of the record interval over √3.
-    pub(crate) time_error: f64,
 }
 
 /// The vertex of the parabola through the record `row` and its neighbors, if `row` is the largest or smallest of the three; else the record itself.
@@ -31,14 +27,9 @@ pub(crate) fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
         let slope = before + bend * (time - t0);
         let step = -slope / (2.0 * bend);
         let inside = (t0 - time..=t2 - time).contains(&step);
-        inside.then(|| Extremum {
-            time: time + step,
-            value: value + 0.5 * slope * step,
-            value_error: (0.5 * slope * step).abs(),
-            time_error: 0.25 * (t2 - t0) / 3.0_f64.sqrt(),
-        })
+        inside.then(|| Extremum { time: time + step, value: value + 0.5 * slope * step })
     };
-    vertex().unwrap_or(Extremum { time, value, value_error: 0.0, time_error: f64::NAN })
+    vertex().unwrap_or(Extremum { time, value })
 }
 
 /// Last fraction of the time over which means are taken.

@@ -180,16 +180,26 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let over_height = |length: f64| length / exact.height;
     let [base_bar, height_bar] = [base, height].map(|length| length.uncertainty);
     vec![
-        measure("base-m", base.value, "m").by(of_base).with_uncertainty(base_bar).moving_with(BASE, 1.0),
-        measure("height-m", height.value, "m").by(of_height).with_uncertainty(height_bar).moving_with(HEIGHT, 1.0),
+        measure("base-m", base.value, "m")
+            .by(of_base)
+            .with_uncertainty(base_bar)
+            .moving_with(BASE, 1.0)
+            .resting_at(exact.base),
+        measure("height-m", height.value, "m")
+            .by(of_height)
+            .with_uncertainty(height_bar)
+            .moving_with(HEIGHT, 1.0)
+            .resting_at(exact.height),
         measure("base-ratio", over_base(base.value), "")
             .by(&of_base_ratio)
             .with_uncertainty(over_base(base_bar))
-            .moving_with(BASE, over_base(1.0)),
+            .moving_with(BASE, over_base(1.0))
+            .resting_at(1.0),
         measure("height-ratio", over_height(height.value), "")
             .by(&of_height_ratio)
             .with_uncertainty(over_height(height_bar))
-            .moving_with(HEIGHT, over_height(1.0)),
+            .moving_with(HEIGHT, over_height(1.0))
+            .resting_at(1.0),
     ]
 }
 

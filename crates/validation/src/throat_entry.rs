@@ -17,12 +17,12 @@ pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Opt
 }
 
 pub(super) fn measures(s: &Subject) -> Vec<Measure> {
-    let (tension, h) = (s.flow.config.method.tension, s.flow.config.method.kernel.h);
+    let (tension, error) = (s.flow.config.method.tension, s.capillary_pressure_error());
     let found = &s.observed.capillary_pressure;
     let pressure = measure("entry-pressure-Pa", found.value, "Pa")
         .by("capillary pressure p_n - p_w at the end: the entry pressure where the invading phase fills up to its \
              meniscus of largest curvature")
-        .with_uncertainty(found.uncertainty(tension, h));
+        .with_uncertainty(error);
     let ([a, b], Some(wetting)) = (s.discs, s.flow.config.method.wetting) else { return vec![pressure] };
     let distance = (b.center - a.center).norm();
     // The phase at the larger pressure is the invading one; the angle is that through the other one.
@@ -39,7 +39,7 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
         pressure,
         measure("entry-pressure-ratio", ratio(found.value), "")
             .by("capillary pressure at the end over the exact entry pressure of the throat, tension/r*")
-            .with_uncertainty(ratio(found.uncertainty(tension, h)).abs()),
+            .with_uncertainty(ratio(error).abs()),
         measure("entry-curvature-ratio", exact.map_or(f64::NAN, |exact| curvature / exact), "")
             .by("curvature of the fitted meniscus at the end over 1/r*"),
     ]

@@ -67,7 +67,7 @@ pub struct CapillaryPressure {
     pub away_from_walls: bool,
 }
 
-/// Discretization error of a capillary pressure, relative to the pressure and to (hκ)², where κ is the curvature of that pressure. Calibrated:
+/// Discretization error of a capillary pressure, relative to the pressure by the curvature κ in the plane and to (hκ)². Calibrated:
 /// docs/numerics/error-bars.md.
 pub(crate) const PRESSURE_RESOLUTION: f64 = 0.05;
 
@@ -82,17 +82,12 @@ pub(crate) const FLAT_CONTACT: f64 = 160.0;
 pub(crate) const PRESSURE_FLOOR: f64 = 5e-4;
 
 impl CapillaryPressure {
-    /// Standard uncertainty in Pa: the scatter of the particles, and the effect of the smoothing length `h` (m) at the `tension` (N/m).
-    pub fn uncertainty(&self, tension: f64, h: f64) -> f64 {
-        self.standard_error.hypot(resolution_error(self.value, tension, h))
-    }
-}
-
-impl CapillaryPressure {
-    /// The same where interfaces meet walls at the contact `angle` (degrees), measured through the phase with the larger one.
-    pub fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
+    /// Standard uncertainty in Pa: the scatter of the particles, and the effect of the smoothing length `h` (m) at the `tension` (N/m) on the part
+    /// `in_plane` (Pa) of the pressure that the curvature in the plane makes, where interfaces meet walls at the contact `angle` (degrees), through the phase
+    /// with the larger one.
+    pub fn uncertainty(&self, in_plane: f64, angle: f64, tension: f64, h: f64) -> f64 {
         let factor = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
-        self.standard_error.hypot(error_by_factor(factor, self.value, tension, h))
+        self.standard_error.hypot(error_by_factor(factor, in_plane, tension, h))
     }
 }
 

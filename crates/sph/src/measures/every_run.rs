@@ -41,11 +41,22 @@ fn smallest_distance(flow: &Flow) -> f64 {
     distances.fold(f64::INFINITY, f64::min) / flow.config.method.spacing
 }
 
-/// The angle in degrees at which a phase meets walls, through the phase with the larger one, of the measured and the requested; 90 without one.
-fn flattest_angle(s: &Subject) -> f64 {
-    let requested = s.flow.config.method.wetting.map_or(90.0, |model| model.static_angle().to_degrees());
-    let through_either = |angle: f64| angle.max(180.0 - angle);
-    through_either(requested).max(through_either(s.observed.angle().mean_deg))
+impl Subject<'_> {
+    /// Standard uncertainty in Pa of the capillary pressure. The contribution of floor and lid is exact.
+    pub fn capillary_pressure_error(&self) -> f64 {
+        let (method, pressure) = (&self.flow.config.method, &self.observed.capillary_pressure);
+        let in_plane = method
+            .plates
+            .map_or(pressure.value, |plates| method.tension * plates.depth.plane(pressure.value / method.tension));
+        pressure.uncertainty(in_plane, self.flattest_angle(), method.tension, method.kernel.h)
+    }
+
+    /// The angle in degrees at which a phase meets walls, through the phase with the larger one, of the measured and the requested; 90 without one.
+    fn flattest_angle(&self) -> f64 {
+        let requested = self.flow.config.method.wetting.map_or(90.0, |model| model.static_angle().to_degrees());
+        let through_either = |angle: f64| angle.max(180.0 - angle);
+        through_either(requested).max(through_either(self.observed.angle().mean_deg))
+    }
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
@@ -64,7 +75,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         measure("capillary-pressure-Pa", pressure.value, "Pa")
             .by("mean pressure of non-wetting minus wetting particles farther than 3h from the interface, referred \
                  to the mean height of the interface")
-            .with_uncertainty(pressure.uncertainty_at(flattest_angle(s), method.tension, method.kernel.h)),
+            .with_uncertainty(s.capillary_pressure_error()),
         measure("interface-length-m", s.observed.interface_length(), "m").by("length of the c = 0.5 contour"),
         measure("wetted-length-m", s.observed.wetted_length, "m")
             .by("length of wall where the smoothed color is above 0.5"),
