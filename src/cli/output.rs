@@ -77,6 +77,22 @@ pub(crate) fn readable(value: f64) -> String {
     }
 }
 
+/// The same with as many digits as a `tolerance` is resolved with.
+pub(crate) fn readable_within(value: f64, tolerance: f64) -> String {
+    /// Most significant digits of a number.
+    const MOST: f64 = 15.0;
+    let digits = (value.abs() / tolerance).log10().ceil();
+    // Four digits tell it, or the value or the tolerance is zero or infinite.
+    if !(digits > 2.0) || !digits.is_finite() {
+        return readable(value);
+    }
+    let decimals = (1.0 - tolerance.log10().floor()).max(0.0) as usize;
+    if digits + 2.0 > MOST || value.abs() < 1e-2 || value.abs() >= 1e7 {
+        return format!("{value:.*e}", (digits + 1.0).min(MOST) as usize);
+    }
+    format!("{value:.decimals$}")
+}
+
 /// A duration in readable form.
 pub(crate) fn duration(seconds: f64) -> String {
     const MINUTE: f64 = 60.0;
@@ -93,6 +109,21 @@ pub(crate) fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_number_beside_its_tolerance_has_the_digits_to_tell_whether_it_is_within() {
+        for (value, tolerance, expected) in [
+            (3015.004, 0.01, "3015.004"),
+            (3015.0, 0.01, "3015.000"),
+            (68.14, 2.5, "68.14"),
+            (0.999_999_5, 1e-6, "0.9999995"),
+            (1.234_567_8e-9, 1e-14, "1.2345678e-9"),
+            (0.0, 1e-3, "0"),
+            (12.0, 0.0, "12.00"),
+        ] {
+            assert_eq!(readable_within(value, tolerance), expected);
+        }
+    }
 
     #[test]
     fn numbers_and_durations_are_short() {

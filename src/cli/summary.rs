@@ -1,6 +1,6 @@
 //! The printed summary of a run: prescribed and measured contact angle, measures, numbers, files.
 
-use super::output::{duration, readable};
+use super::output::{duration, readable, readable_within};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status, Verdict};
 use crate::run::steady::Steadiness;
@@ -116,8 +116,9 @@ fn expectation(verdict: &Verdict) -> String {
         Some(false) => "MISSED",
         None => "open  ",
     };
-    let measured = verdict.measured.map_or("not measured".to_owned(), readable);
-    let (value, tolerance) = (readable(verdict.value), readable(verdict.tolerance));
+    let within = |value: f64| readable_within(value, verdict.tolerance);
+    let measured = verdict.measured.map_or("not measured".to_owned(), within);
+    let (value, tolerance) = (within(verdict.value), readable(verdict.tolerance));
     format!("  {word}  {}: expected {value} +- {tolerance}, measured {measured}", verdict.measure)
 }
 

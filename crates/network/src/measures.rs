@@ -114,7 +114,9 @@ fn entry_pressures(model: &Model) -> Vec<Measure> {
     let method = "entry pressures of all throats in drainage, at the receding angle";
     vec![
         measure(smallest, at(Some(0)), "Pa").by(format!("the smallest of the {method}")),
-        measure(median, at(last.map(|last| last / 2)), "Pa").by(format!("the median of the {method}")),
+        // Of an even number, the mean of the two in the middle.
+        measure(median, 0.5 * (at(last.map(|last| last / 2)) + at(last.map(|last| last.div_ceil(2)))), "Pa")
+            .by(format!("the median of the {method}")),
         measure(largest, at(last), "Pa").by(format!("the largest of the {method}")),
     ]
 }

@@ -23,6 +23,7 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
             .with_uncertainty(error / mean.abs()),
         measure("capillary-pressure-ratio", over_exact(pressure.value / tension), "")
             .by("capillary pressure over that of the exact menisci with the same area and the requested angle")
-            .with_uncertainty(over_exact(s.capillary_pressure_error() / tension).abs()),
+            .with_uncertainty(over_exact(s.capillary_pressure_error() / tension).abs())
+            .moving_with("capillary_pressure_Pa", over_exact(1.0 / tension)),
     ]
 }

@@ -6,6 +6,9 @@ use meniscus_core::solver::{Measure, measure};
 use meniscus_geometry::analysis::roots::bisect;
 use meniscus_sph::measures::Subject;
 
+/// The column with which the entry pressure varies.
+const PRESSURE: &str = "capillary_pressure_Pa";
+
 /// Entry curvature p_c*/sigma in 1/m of the throat between two discs with `radii` (m) and centers `distance` (m) apart.
 ///
 /// 1/r* with sqrt(R1² + r² + 2 R1 r cos theta) + sqrt(R2² + r² + 2 R2 r cos theta) = L, `angle` (rad) below 90 degrees or slightly above. `None` if the discs
@@ -22,7 +25,8 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let pressure = measure("entry-pressure-Pa", found.value, "Pa")
         .by("capillary pressure p_n - p_w at the end: the entry pressure where the invading phase fills up to its \
              meniscus of largest curvature")
-        .with_uncertainty(error);
+        .with_uncertainty(error)
+        .moving_with(PRESSURE, 1.0);
     let ([a, b], Some(wetting)) = (s.discs, s.flow.config.method.wetting) else { return vec![pressure] };
     let distance = (b.center - a.center).norm();
     // The phase at the larger pressure is the invading one; the angle is that through the other one.
@@ -39,7 +43,8 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
         pressure,
         measure("entry-pressure-ratio", ratio(found.value), "")
             .by("capillary pressure at the end over the exact entry pressure of the throat, tension/r*")
-            .with_uncertainty(ratio(error).abs()),
+            .with_uncertainty(ratio(error).abs())
+            .moving_with(PRESSURE, ratio(1.0)),
         measure("entry-curvature-ratio", exact.map_or(f64::NAN, |exact| curvature / exact), "")
             .by("curvature of the fitted meniscus at the end over 1/r*"),
     ]
