@@ -1,15 +1,19 @@
 """Runs cases whose results are known, and compares how far off they are with the error bars that the program gives.
 
-Usage: error_bars.py [--program target/release/meniscus] [--out out/error-bars] [--threads 1]
+Usage: error_bars.py [--program target/release/meniscus] [--out out/error-bars] [--threads 1] [--drawn SEED]
 
 Menisci in slits and in the throat between two discs (pressure and angle known), drops on planes, discs and under gravity, a bridge, liquid
-between discs (angle known). Prints a table in Markdown: what is known, what was measured with its bar, and the error over the bar.
+between discs (angle known). With --drawn 60 runs instead, by a seed: 15 of these, 15 slits and throats between a floor and a lid (pressure known),
+and 30 drops that are stopped while they spread or recede (angle, base and height at rest known). Prints a table in Markdown: what is known, what was
+measured with its bar, and the error over the bar; then by kind the share within two bars, and the median bar over the median error.
 """
 
 import argparse
 import json
 import math
+import random
 import shutil
+import statistics
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -22,12 +26,13 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @dataclass
 class Known:
-    """A run with its name, case, changed values and the capillary pressure in Pa, where that is known."""
+    """A run with its name, case, changed values and the capillary pressure in Pa, where that is known, and its kind."""
 
     name: str
     case: str
     changes: dict[str, object] = field(default_factory=dict)
     pressure: float | None = None
+    kind: str = "plane"
 
 
 def root(function, low: float, high: float) -> float:
@@ -82,6 +87,40 @@ def known_cases() -> list[Known]:
     return slits + throats + drops + puddles + rest
 
 
+def with_depth(known: Known, angle: float, depth: float) -> Known:
+    """The same between a floor and a lid, which add 2 cos(angle)/depth to the curvature where no corner holds a film."""
+    geometry = {"slit": "geometry.depth", "throat-entry": "geometry.depth"}[known.case]
+    pressure = known.pressure + 2.0 * TENSION * math.cos(math.radians(angle)) / depth
+    changes = known.changes | {geometry: depth, "expect": []}
+    return Known(f"{known.name}, {depth:.2g} m deep", known.case, changes, pressure, "depth")
+
+
+def stopped(angle: float, end: float, spacing: float) -> Known:
+    """A drop that has spread or receded from 90 degrees towards `angle` until `end` (s)."""
+    changes = {
+        ANGLE: round(angle, 2),
+        "sph.spacing": spacing,
+        "time.end": end,
+        "time.steady.stop": False,
+        "output.series.every-time": end / 60.0,
+        "expect": [],
+    }
+    return Known(f"drop towards {angle:.1f} deg, {end:.2g} s", "sessile-drop", changes, kind="moving")
+
+
+def drawn_cases(seed: int) -> list[Known]:
+    """60 runs drawn by a seed, half of them moving."""
+    dice = random.Random(seed)
+    plane = dice.sample(known_cases(), 15)
+    depth = []
+    for i in range(15):
+        angle, deep = round(dice.uniform(46.0, 134.0), 1), 10.0 ** dice.uniform(-4.3, -3.0)
+        spacing = dice.choice((5.0e-5, 4.0e-5, 3.125e-5))
+        depth.append(with_depth((slit if i % 2 else throat)(angle, spacing), angle, float(f"{deep:.3g}")))
+    moving = [stopped(dice.uniform(30.0, 130.0), float(f"{10.0 ** dice.uniform(-2.7, -1.3):.3g}"), dice.choice((1.0e-4, 8.0e-5))) for _ in range(30)]
+    return plane + depth + moving
+
+
 def run(known: Known, program: Path, folder: Path, threads: int) -> dict | None:
     """The measures of a run, none where it failed."""
     out = folder / known.name.replace(" ", "-").replace(",", "")
@@ -97,13 +136,13 @@ def rows(known: Known, measures: dict) -> list[tuple[str, str, float, float, flo
     """Name, unit, known and measured value and bar of what is known of a run."""
     found = []
     angle, asked = measures["contact-angle-deg"], measures["requested-angle-deg"]["value"]
-    if angle["value"] is not None and asked is not None:
+    if angle["value"] is not None and asked is not None and known.kind != "depth":
         found.append(("angle", "deg", asked, angle["value"], angle["uncertainty"]))
-    if known.pressure is not None:
+    if known.pressure is not None and abs(known.pressure) > 1.0e-9 * TENSION / 1.0e-3:
         pressure = measures["capillary-pressure-Pa"]
         found.append(("pressure", "Pa", known.pressure, pressure["value"], pressure["uncertainty"]))
     for name, measure in measures.items():
-        if name in ("interface-curvature-ratio", "capillary-pressure-ratio") and measure["uncertainty"]:
+        if name in ("interface-curvature-ratio", "capillary-pressure-ratio", "base-ratio", "height-ratio") and measure["uncertainty"]:
             found.append((name, "", 1.0, measure["value"], measure["uncertainty"]))
     return found
 
@@ -115,21 +154,25 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("out/error-bars"))
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--at-once", type=int, default=2)
+    parser.add_argument("--drawn", type=int, metavar="SEED", help="60 runs drawn by this seed")
     asked = parser.parse_args()
-    cases = known_cases()
+    cases = known_cases() if asked.drawn is None else drawn_cases(asked.drawn)
     with ThreadPoolExecutor(asked.at_once) as pool:
         results = list(pool.map(lambda known: run(known, asked.program, asked.out, asked.threads), cases))
     print("| case | measure | known | measured | error over bar |\n|---|---|---|---|---|")
-    count = within = 0
+    found: dict[str, list[tuple[float, float]]] = {}
     for known, measures in zip(cases, results, strict=True):
         if measures is None:
             print(f"| {known.name} | failed | | | |")
             continue
         for name, unit, exact, value, bar in rows(known, measures):
-            error = (value - exact) / bar
-            count, within = count + 1, within + (abs(error) <= 2.0)
-            print(f"| {known.name} | {name} | {exact:.4g} {unit} | {value:.4f} ± {bar:.2g} | {error:+.2f} |")
-    print(f"\n{within} of {count} within two bars")
+            found.setdefault(known.kind, []).append(((value - exact) / exact if exact else value, bar / abs(exact or 1.0)))
+            print(f"| {known.name} | {name} | {exact:.4g} {unit} | {value:.4f} ± {bar:.2g} | {(value - exact) / bar:+.2f} |")
+    print("\n| kind | values | within two bars | median error | median bar |\n|---|---|---|---|---|")
+    for kind, values in found.items():
+        within = sum(abs(error) <= 2.0 * bar for error, bar in values)
+        error, bar = (statistics.median(abs(value[i]) for value in values) for i in (0, 1))
+        print(f"| {kind} | {len(values)} | {100.0 * within / len(values):.0f} % | {100.0 * error:.2g} % | {100.0 * bar:.2g} % |")
 
 
 if __name__ == "__main__":

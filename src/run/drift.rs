@@ -60,10 +60,13 @@ impl Drift {
         Self { left: if is_off { self.left.max(self.off) } else { self.left }, ..self }
     }
 
-    /// The same for a quantity that follows a column of the `series` and has the signed `way` to go to the only value at which it can be at rest, the column
-    /// the way `of_column`: all of it is left if it goes there.
-    pub(crate) fn over(self, series: &Series, column: &str, of_column: f64, way: f64) -> Self {
-        let goes = windows(series, column).is_some_and(|windows| approaches(&windows, of_column));
+    /// The same for a length that follows a column of the `series`, `size` now, and has the signed `way` to go to the only value at which it can be at rest,
+    /// the column the way `of_column`: all of it is left if it goes there, turned back on its way, or is still far.
+    pub(crate) fn over(self, series: &Series, column: &str, of_column: f64, way: f64, size: f64) -> Self {
+        let moves = |windows: Windows| {
+            approaches(&windows, of_column) || range(&windows.values.concat()) > MOVED * of_column.abs()
+        };
+        let goes = windows(series, column).is_some_and(moves) || way.abs() > FARTHEST_SHARE * size.abs();
         Self { left: if goes { self.left.max(way.abs()) } else { self.left }, ..self }
     }
 
@@ -85,6 +88,9 @@ const FAR: f64 = 3.0;
 
 /// Degrees by which it may be off, however small its uncertainty.
 const FARTHEST_ERROR: f64 = 1.5;
+
+/// Fraction of itself by which a length at rest may be off.
+const FARTHEST_SHARE: f64 = 0.03;
 
 /// Fraction of the remaining change by which an angle that oscillates about its end moved within three windows.
 const MOVED: f64 = 0.5;

@@ -203,7 +203,7 @@ pub(crate) fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watch
                 (None, Some(with)) => {
                     let drift = Drift::of(series, with.column).map(|drift| drift.times(with.factor));
                     let way = with.at_rest.filter(|_| has_one_angle).map_or(0.0, |at_rest| at_rest - m.value);
-                    drift.map(|drift| drift.over(series, with.column, way / with.factor, way))
+                    drift.map(|drift| drift.over(series, with.column, way / with.factor, way, m.value))
                 }
                 (None, None) => None,
             };
@@ -303,6 +303,6 @@ mod tests {
             readings(vec![ratio], &series, &watched).remove("base-ratio").unwrap().uncertainty.unwrap()
         };
         assert!(of([60.0; 2], -50.0) > 54.0 && of([50.0, 60.0], -50.0) < 20.0, "{}", of([60.0; 2], -50.0));
-        assert!(of([60.0; 2], 50.0) < 20.0, "a drop that recedes");
+        assert!(of([60.0; 2], 4.05) < 20.0, "a drop near its end");
     }
 }

@@ -78,26 +78,34 @@ pub(crate) const PRESSURE_RESOLUTION_FLAT_CONTACT: f64 = 0.14;
 /// Contact angle in degrees above which the gap along the wall is too thin for the smoothing.
 pub(crate) const FLAT_CONTACT: f64 = 160.0;
 
-/// Relative error due to lattice and walls that remains at any spacing.
+/// Relative error due to the lattice that remains at any spacing.
 pub(crate) const PRESSURE_FLOOR: f64 = 5e-4;
+
+/// Relative error of the part by the curvature in the plane that remains where interfaces meet walls.
+pub(crate) const PRESSURE_FLOOR_AT_WALLS: f64 = 1.5e-3;
 
 impl CapillaryPressure {
     /// Standard uncertainty in Pa: the scatter of the particles, and the effect of the smoothing length `h` (m) at the `tension` (N/m) on the part
-    /// `in_plane` (Pa) of the pressure that the curvature in the plane makes, where interfaces meet walls at the contact `angle` (degrees), through the phase
-    /// with the larger one.
-    pub fn uncertainty(&self, in_plane: f64, angle: f64, tension: f64, h: f64) -> f64 {
-        let factor = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
-        self.standard_error.hypot(error_by_factor(factor, in_plane, tension, h))
+    /// `in_plane` (Pa) of the pressure that the curvature in the plane makes; `angle` is that in degrees at which interfaces meet walls, through the phase
+    /// with the larger one, `None` if they meet none.
+    pub fn uncertainty(&self, in_plane: f64, angle: Option<f64>, tension: f64, h: f64) -> f64 {
+        let [factor, floor] = match angle {
+            None => [PRESSURE_RESOLUTION, 0.0],
+            Some(angle) if angle > FLAT_CONTACT => [PRESSURE_RESOLUTION_FLAT_CONTACT, PRESSURE_FLOOR_AT_WALLS],
+            Some(_) => [PRESSURE_RESOLUTION, PRESSURE_FLOOR_AT_WALLS],
+        };
+        let of_lattice = PRESSURE_FLOOR * self.value;
+        self.standard_error.hypot(of_lattice).hypot(error_by([factor, floor], in_plane, tension, h))
     }
 }
 
 /// The discretization error in Pa of a capillary `pressure` (Pa).
 pub fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
-    error_by_factor(PRESSURE_RESOLUTION, pressure, tension, h)
+    error_by([PRESSURE_RESOLUTION, PRESSURE_FLOOR], pressure, tension, h)
 }
 
-fn error_by_factor(factor: f64, pressure: f64, tension: f64, h: f64) -> f64 {
-    pressure * (factor * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
+fn error_by([factor, floor]: [f64; 2], pressure: f64, tension: f64, h: f64) -> f64 {
+    pressure * (factor * (h * pressure / tension).powi(2)).hypot(floor)
 }
 
 /// Width of the band left out along the interface, in smoothing lengths.

@@ -48,7 +48,8 @@ impl Subject<'_> {
         let in_plane = method
             .plates
             .map_or(pressure.value, |plates| method.tension * plates.depth.plane(pressure.value / method.tension));
-        pressure.uncertainty(in_plane, self.flattest_angle(), method.tension, method.kernel.h)
+        let angle = (!self.observed.contact_lines.is_empty()).then(|| self.flattest_angle());
+        pressure.uncertainty(in_plane, angle, method.tension, method.kernel.h)
     }
 
     /// The angle in degrees at which a phase meets walls, through the phase with the larger one, of the measured and the requested; 90 without one.
