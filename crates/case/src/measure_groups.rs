@@ -241,7 +241,7 @@ groups! {
     pub slit_filling: [
         // Final area of the wetting phase over the width
         "filled-length-m",
-        // Displacement of the meniscus over the exact one
+        // Displacement of the meniscus over the exact one, with the slip length of the plates; none with a depth
         "filling-ratio",
         // Largest error of the filled length over all records, over the total displacement
         "filling-error",

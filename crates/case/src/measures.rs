@@ -166,13 +166,13 @@ fn of_permeability(sph: &Sph) -> Vec<Offer> {
     let is_measured = |axis: usize| sph.measure.permeability && sph.gravity[axis] != 0.0;
     offers! {
         "[sph.measure.permeability] and an sph.gravity along x", is_measured(0) =>
-            // Viscosity times the mean velocity along x and y, over the force per volume along x
+            // Viscosity times the mean velocity along x and y, over the force per volume along x; bar: what is left to change
             "permeability-xx-m2"
             "permeability-yx-m2"
             // Rate of change of the momentum over the body force, at the end of the force along x
             "unsteady-share-x";
         "[sph.measure.permeability] and an sph.gravity along y", is_measured(1) =>
-            // Viscosity times the mean velocity along x and y, over the force per volume along y
+            // Viscosity times the mean velocity along x and y, over the force per volume along y; bar: what is left to change
             "permeability-xy-m2"
             "permeability-yy-m2"
             // Rate of change of the momentum over the body force, at the end of the force along y

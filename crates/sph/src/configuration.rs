@@ -77,8 +77,12 @@ impl Configuration {
     }
 
     /// Weight of shifting and density-error correction for a fluid particle at `x` (m): 0 at a side with a given velocity, since buffers have neither, and 1 from
-    /// the distance h on. A row that enters would otherwise receive both at once, as an impulse.
+    /// the distance h on. A row that enters would otherwise receive both at once, as an impulse. Without surface tension the density error is corrected by
+    /// displacements, which give no impulse.
     pub(crate) fn weight_of_corrections(&self, x: Vec2) -> f64 {
+        if self.method.tension == 0.0 {
+            return 1.0;
+        }
         let sides = self.open.sides.iter().filter(|side| side.given_pressure().is_none());
         let weight = |side: &OpenSide| (-side.overshoot(x) / self.method.kernel.h).clamp(0.0, 1.0);
         sides.map(weight).fold(1.0, f64::min)

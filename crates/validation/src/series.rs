@@ -27,7 +27,7 @@ pub(crate) fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
         let slope = before + bend * (time - t0);
         let step = -slope / (2.0 * bend);
         let inside = (t0 - time..=t2 - time).contains(&step);
-        inside.then(|| Extremum { time: time + step, value: value + 0.5 * slope * step })
+        inside.then_some(Extremum { time: time + step, value: value + 0.5 * slope * step })
     };
     vertex().unwrap_or(Extremum { time, value })
 }

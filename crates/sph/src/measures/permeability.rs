@@ -84,13 +84,17 @@ pub(super) fn response(flow: &Flow, stages: &Stages, series: &Series) -> Vec<Col
 
 /// What `value` still has to change after the last of the `rows` of a stage: after changes d₁ and d₂ over two equal intervals an exponential approach
 /// leaves |d₂| r/(1 − r) with r = d₂/d₁, the larger of both components: the slowest part of a flow is in both, and one that turns back hides it.
+/// NaN with fewer than three rows.
 fn left(rows: &[&[f64]], value: impl Fn(&[f64]) -> Vec2) -> Vec2 {
-    let [first, .., last] = rows else { return Vec2::zeros() };
+    let [first, .., last] = rows else { return Vec2::repeat(f64::NAN) };
     let interval = INTERVAL * (last[0] - first[0]);
     let before = |time: f64| rows.iter().rev().copied().find(|row| row[0] <= time + 1e-6 * interval).unwrap_or(first);
     let middle = before(last[0] - interval);
     let start = before(middle[0] - interval);
     let (early, late) = (middle[0] - start[0], last[0] - middle[0]);
+    if early == 0.0 {
+        return Vec2::repeat(f64::NAN);
+    }
     let [from, half, to] = [start, middle, last].map(&value);
     let (d1, d2) = (half - from, to - half);
     // With unequal intervals, the ratio of the rates over the time between their middles.
