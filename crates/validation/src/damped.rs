@@ -91,11 +91,11 @@ mod tests {
     }
 
     #[test]
-    fn noise_moves_the_fit_by_no_more_than_its_share() {
+    fn noise_of_two_percent_moves_the_fit_by_a_tenth_of_a_percent() {
         let (times, values) = series(0.004);
         let found = fit(&times, &values, 6.0).expect("a fit");
-        // Three standard errors of a fit to 150 values with a noise of 2 % of the amplitude.
-        assert!((found.frequency - 5.0).abs() < 0.01 && (found.decay - 0.7).abs() < 0.01, "{found:?}");
+        // Measured: 0.0018 and 0.0004.
+        assert!((found.frequency - 5.0).abs() < 0.003 && (found.decay - 0.7).abs() < 0.0008, "{found:?}");
     }
 
     #[test]

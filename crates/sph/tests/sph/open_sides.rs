@@ -191,9 +191,9 @@ fn water_that_reaches_an_inlet_of_air_turns_back() {
     let text = channel("").replace(one_fluid, fluids).replace("spacing = 1.0e-4", "spacing = 5.0e-5");
     let mut flow = flow(&text);
     run(&mut flow, 2.5e-3);
-    // The drop spreads at √(σ/(ρ h)), 0.5 m/s.
+    // The drop spreads at √(σ/(ρ h)), 0.5 m/s; measured: 0.96.
     let fastest = flow.state.particles.fluid_speed();
-    assert!(fastest < 3.0, "{fastest} m/s");
+    assert!(fastest < 1.9, "{fastest} m/s");
     assert_eq!(missing(&flow), [0, 0]);
 }
 
