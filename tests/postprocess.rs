@@ -38,6 +38,17 @@ fn openpnm_and_porespy_find_the_network_of_the_reference_pack() {
     run(&mut command, "the tests of the scripts for networks must pass");
 }
 
+/// Runs of the calibration in docs/numerics/error-bars.md, by another seed than that of its constants: at rest and moving, with and without a depth.
+#[test]
+fn eight_runs_of_the_calibration_lie_within_two_bars() {
+    let (directory, seed) =
+        (tempfile::tempdir().unwrap(), std::env::var("MENISCUS_SEED").unwrap_or_else(|_| "6".into()));
+    let mut command = script("error_bars.py");
+    command.args(["--drawn", &seed, "--runs", "8", "--program", env!("CARGO_BIN_EXE_meniscus"), "--out"]);
+    let printed = run(command.arg(directory.path()), "two bars must cover 90 of 100 values");
+    assert!(["moving", "plane", "depth"].iter().any(|kind| printed.contains(&format!("\n| {kind} | "))), "{printed}");
+}
+
 #[test]
 fn fresh_output_keeps_the_contract_and_is_drawn() {
     let directory = folder_with_small_case();

@@ -1,7 +1,7 @@
 //! Remaining change of a quantity of the series, and its rate.
 //!
 //! With the means m₁, m₂, m₃ over three equal windows that end at the last row, an exponential approach leaves |d₂| r/(1 − r), d₁ = m₂ − m₁, d₂ = m₃ − m₂, r =
-//! d₂/d₁, cut off at [`steady::SLOWEST`]. A quantity that oscillates, so that d₁ and d₂ may differ in sign, is off by half of its range in the last window at
+//! d₂/d₁, cut off at [`meniscus_core::math::SLOWEST`]. A quantity that oscillates, so that d₁ and d₂ may differ in sign, is off by half of its range in the last window at
 //! most. An angle that approaches the one at rest has that whole distance left: spreading is a power law, which three windows do not determine.
 //!
 //! A contact angle can overshoot and return: a flow that loses the kinetic energy E can do the work E on an interface of the length L, and so turn it by up to

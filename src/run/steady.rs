@@ -8,13 +8,11 @@
 use serde::Serialize;
 
 use meniscus_case::{FEWEST_ROWS, SteadyStop};
+use meniscus_core::math::{SLOWEST, remaining};
 use meniscus_core::solver::{Quantity, Series, Watched};
 
 /// Length of a window relative to the elapsed time, if the case gives none: slow changes have that much longer to show.
 pub(crate) const SHARE: f64 = 0.2;
-
-/// Largest ratio of the changes from window to window.
-pub(crate) const SLOWEST: f64 = 0.9;
 
 /// Rows nearer to the end of a window than this fraction of it are on it.
 const SAME: f64 = 1.0e-6;
@@ -175,11 +173,10 @@ pub(super) fn range(values: &[f64]) -> f64 {
 pub(super) fn left([first, second, third]: [f64; 3]) -> f64 {
     let [before, last] = [second - first, third - second];
     if before * last < 0.0 {
-        return before.abs().max(last.abs()) * SLOWEST / (1.0 - SLOWEST);
+        return remaining(before.abs().max(last.abs()), SLOWEST);
     }
     // Both changes are zero.
-    let ratio = if last == 0.0 { 0.0 } else { (last / before).min(SLOWEST) };
-    last.abs() * ratio / (1.0 - ratio)
+    remaining(last, if last == 0.0 { 0.0 } else { last / before })
 }
 
 #[cfg(test)]

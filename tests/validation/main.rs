@@ -4,7 +4,6 @@
 mod support;
 
 mod contact_angles;
-mod error_bars;
 mod own_spacing;
 mod relative_permeability;
 mod validation;

@@ -48,8 +48,16 @@ tables! {
         pub initial: RawInitial,
         /// Parameters of the method, which rarely need a change.
         pub numerics: RawNumerics,
+        /// Criterion that ends a displacement before `time.end`.
+        pub stop: RawSphStop,
         /// Groups of measures for the report, one empty table each.
         pub measure: RawMeasures,
+    }
+
+    /// Criterion that ends a displacement before `time.end`.
+    pub(crate) struct RawSphStop {
+        /// Ends when the entering phase passes another open side: 20 particles of it have left (default false).
+        pub breakthrough: bool,
     }
 }
 
@@ -94,6 +102,9 @@ pub struct Sph {
     pub initial: Initial,
     /// Parameters of the method with a default that rarely needs a change (`[sph.numerics]`).
     pub numerics: Numerics,
+    /// Whether the run ends when the entering phase has passed another open side.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub stop_at_breakthrough: bool,
     /// Groups of measures in addition to those of every run (`[sph.measure]`).
     pub measure: MeasureSet,
 }
@@ -162,6 +173,7 @@ pub(super) fn sph(
         Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_mut(), model, Some(&sides), geometry),
         None => Vec::new(),
     };
+    let stop_at_breakthrough = stop_at_breakthrough(checker, raw.stop.as_ref(), &sides, two_phases);
     let raw_initial = raw.initial.get_or_insert_default();
     let initial = match raw_initial.network {
         Some(_) => initial::from_network(checker, raw_initial, two_phases, &sides, start),
@@ -196,8 +208,23 @@ pub(super) fn sph(
         open: open?,
         initial: initial?,
         numerics,
+        stop_at_breakthrough,
         measure,
     })
+}
+
+/// Whether a run ends at breakthrough, which needs two phases and two open sides.
+fn stop_at_breakthrough(checker: &mut Checker, raw: Option<&RawSphStop>, sides: &Sides, two_phases: bool) -> bool {
+    let stops = raw.and_then(|stop| stop.breakthrough).unwrap_or(false);
+    let open = sides.open().into_iter().filter(|is_open| *is_open).count() > 1;
+    if stops && !(two_phases && open) {
+        checker.refuse(
+            "sph.stop.breakthrough",
+            "breakthrough needs two phases, and an inlet and an outlet",
+            "add them in [sph.phases] and [sph.sides], or leave this out",
+        );
+    }
+    stops
 }
 
 /// h/dx of the paper's examples.

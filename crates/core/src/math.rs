@@ -138,6 +138,16 @@ fn last_digit(value: f64) -> f64 {
     10.0_f64.powi(value.log10().floor() as i32 - 2)
 }
 
+/// What an exponential approach still changes after `change`, with the `ratio` r of this change to that over the equal interval before: |change| r/(1 − r), r at
+/// most [`SLOWEST`].
+pub fn remaining(change: f64, ratio: f64) -> f64 {
+    let ratio = ratio.min(SLOWEST);
+    change.abs() * ratio / (1.0 - ratio)
+}
+
+/// Largest ratio of successive changes that determines an approach.
+pub const SLOWEST: f64 = 0.9;
+
 /// The root of a node in a disjoint-set forest, with path halving: `parent` has the parent of each node; a root is its own.
 pub fn root(parent: &mut [usize], mut node: usize) -> usize {
     while parent[node] != node {

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use crate::flow::{Flow, PARTS};
 use crate::frozen::FrozenInterface;
-use crate::measures::{DiscOf, Group, Subject, all, columns, permeability, relative, samples_of_chip};
+use crate::measures::{DiscOf, Group, Subject, all, columns, has_passed, permeability, relative, samples_of_chip};
 use crate::observe::Observation;
 use crate::output;
 use crate::particles::{Particles, relative_speed};
@@ -54,6 +54,8 @@ pub(crate) struct Surroundings {
     pub(crate) has_edges: bool,
     /// Body forces that act one after the other, for measurements of permeability.
     pub(crate) stages: Option<Stages>,
+    /// Whether the run ends when the invading phase has passed another open side.
+    pub(crate) stops_at_breakthrough: bool,
     /// Spacing of grid nodes in m.
     pub(crate) grid_spacing: f64,
     /// If the flow started from the state of a network: the state that it returns.
@@ -147,6 +149,10 @@ impl SphSolver {
 impl Solver for SphSolver {
     fn time(&self) -> f64 {
         self.flow.state.time
+    }
+
+    fn is_done(&self) -> bool {
+        self.surroundings.stops_at_breakthrough && has_passed(&self.flow)
     }
 
     fn steps(&self) -> u64 {

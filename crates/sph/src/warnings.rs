@@ -38,10 +38,9 @@ const ROUNDING: f64 = 1e-9;
 /// The warnings about the present flow.
 pub(crate) fn warnings(flow: &Flow, observed: &Observation, series: &Series) -> Vec<String> {
     if flow.config.method.tension == 0.0 {
-        return thin_layer(flow).into_iter().collect();
+        return Vec::new();
     }
     let found = [
-        thin_layer(flow),
         films_left(flow),
         pieces_and_films(flow, observed, series),
         low_drop(flow, observed),
@@ -49,20 +48,6 @@ pub(crate) fn warnings(flow: &Flow, observed: &Observation, series: &Series) -> 
         parasitic_currents(flow, observed, series),
     ];
     found.into_iter().flatten().collect()
-}
-
-/// The warning if the boundary layer at walls between floor and lid, b √(α/12), is thinner than the spacing.
-fn thin_layer(flow: &Flow) -> Option<String> {
-    let method = &flow.config.method;
-    let plates = method.plates?;
-    let layer = (plates.profile / plates.friction).sqrt();
-    (layer < method.spacing).then(|| {
-        format!(
-            "the layer beside walls in which the flow between floor and lid slows down is {layer:.2e} m thick, less than the spacing of {:.2e} m: in a channel ten times \
-             as wide as deep with 20 spacings across the permeability is 2 % too large",
-            method.spacing
-        )
-    })
 }
 
 /// The warning if menisci are so fast that the receding wetting phase leaves films on floor and lid. The speed is the mean in the pore: the larger of

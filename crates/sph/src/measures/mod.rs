@@ -12,6 +12,7 @@ pub(crate) mod relative;
 pub mod stream;
 mod subject;
 
+pub(crate) use open::has_passed;
 pub use subject::{Columns, DiscOf, Group, Subject};
 
 use crate::flow::Flow;

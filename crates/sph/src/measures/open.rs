@@ -39,6 +39,30 @@ fn entering(flow: &Flow) -> (usize, usize) {
     (phase, entry)
 }
 
+/// An open side other than `side`.
+fn opposite<'a>(flow: &'a Flow, side: &OpenSide) -> Option<&'a OpenSide> {
+    flow.config.open.sides.iter().find(|other| other.number != side.number)
+}
+
+/// The particles of the invading phase that left through another side than that by which it came in.
+fn passed(flow: &Flow) -> Option<u64> {
+    let outflow = &flow.state.fluxes.outflow;
+    if let Some(side) = rising(flow) {
+        let phase = usize::from(side.main != Phase::Wetting);
+        return Some(opposite(flow, side).map_or(0, |opposite| outflow[opposite.number][phase]));
+    }
+    is_displacement(flow).then(|| {
+        let (phase, entry) = entering(flow);
+        (0..outflow.len()).filter(|number| *number != entry).map(|number| outflow[number][phase]).sum()
+    })
+}
+
+/// Whether the invading phase has passed another side; before as much came in, it is not known which phase invades.
+pub(crate) fn has_passed(flow: &Flow) -> bool {
+    let came_in = flow.state.fluxes.totals().0.into_iter().max();
+    [came_in, passed(flow)].into_iter().all(|count| count.is_some_and(|count| count >= SMALLEST_PIECE as u64))
+}
+
 /// Columns of open sides, among them the areas in m² that came in and left since time zero, by phase: particle counts times V_0.
 pub(crate) fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
@@ -71,17 +95,11 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
         ),
     ];
     if let Some(side) = rising(flow) {
-        let opposite = flow.config.open.sides.iter().find(|other| other.number != side.number);
-        let [high, low] = [Some(side), opposite].map(|side| side.and_then(OpenSide::given_pressure).unwrap_or(0.0));
+        let [high, low] =
+            [Some(side), opposite(flow, side)].map(|side| side.and_then(OpenSide::given_pressure).unwrap_or(0.0));
         columns.push((PRESSURE_DIFFERENCE, high - low));
-        let phase = usize::from(side.main != Phase::Wetting);
-        let through = opposite.map_or(0, |opposite| flow.state.fluxes.outflow[opposite.number][phase]);
-        columns.push((PASSED, area(through)));
-    } else if is_displacement(flow) {
-        let (phase, entry) = entering(flow);
-        let others = (0..flow.state.fluxes.outflow.len()).filter(|number| *number != entry);
-        columns.push((PASSED, area(others.map(|number| flow.state.fluxes.outflow[number][phase]).sum())));
     }
+    columns.extend(passed(flow).map(|count| (PASSED, area(count))));
     if let Some(pressure) = driving_pressure(flow) {
         columns.push((DRIVING_PRESSURE, pressure));
     }

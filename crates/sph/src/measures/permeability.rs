@@ -3,7 +3,7 @@
 use super::subject::{Columns, Subject};
 use crate::flow::Flow;
 use crate::stages::Stages;
-use meniscus_core::math::Vec2;
+use meniscus_core::math::{Vec2, remaining};
 use meniscus_core::solver::{Measure, Series, measure};
 
 /// Off-diagonal entries may differ by this fraction of the diagonal ones without a warning: the discretization is not symmetric.
@@ -21,9 +21,6 @@ const SMALLEST: f64 = 0.1;
 
 /// Intervals over which the remaining change of a flow is extrapolated, over the length of its stage.
 const INTERVAL: f64 = 0.1;
-
-/// Largest ratio of the changes over two such intervals: a flow that decays more slowly than this is not determined by them.
-const SLOWEST: f64 = 0.9;
 
 const MEANS: [&str; 2] = ["mean_velocity_x_m_per_s", "mean_velocity_y_m_per_s"];
 const AREAS: [&str; 2] = ["wetting_area_m2", "non_wetting_area_m2"];
@@ -103,9 +100,9 @@ fn left(rows: &[&[f64]], value: impl Fn(&[f64]) -> Vec2) -> Vec2 {
         both if both < 0.0 => 0.5,
         _ => 0.0,
     };
-    let ratio = ratio_of(0).max(ratio_of(1)).min(SLOWEST);
+    let ratio = ratio_of(0).max(ratio_of(1));
     let change = |i: usize| if d1[i] * d2[i] < 0.0 { d1[i].abs().max(d2[i].abs()) } else { d2[i].abs() };
-    Vec2::from_fn(|i, _| change(i) * ratio / (1.0 - ratio))
+    Vec2::from_fn(|i, _| remaining(change(i), ratio))
 }
 
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {

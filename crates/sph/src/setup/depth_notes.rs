@@ -1,5 +1,5 @@
-//! Notes on a flow between a floor and a lid before it starts: throats for which the depth-averaged equations are inaccurate, and wetting laws that
-//! do not apply to floor and lid.
+//! Notes on a flow between a floor and a lid before it starts: throats for which the depth-averaged equations are inaccurate, layers at walls that the
+//! spacing does not resolve, and wetting laws that do not apply to floor and lid.
 
 use super::method::median_width;
 use meniscus_case::Sph;
@@ -18,7 +18,26 @@ pub fn notes(sph: &Sph, geometry: &Geometry) -> Vec<String> {
     let law = sph.wetting_model.filter(|_| sph.acting_tension() > 0.0).and_then(|law| on_walls_only(&law));
     let [Some(&narrowest), Some(&widest)] = [widths.first(), widths.last()] else { return law.into_iter().collect() };
     let of_throats = implausible(depth, narrowest, widest).or_else(|| unlike(sph, depth, &widths, [narrowest, widest]));
-    of_throats.into_iter().chain(law).collect()
+    let layer = median_width(&widths).and_then(|median| unresolved_layer(sph, depth, narrowest, median));
+    of_throats.into_iter().chain(layer).chain(law).collect()
+}
+
+/// The note if the spacing is so large that the flow through the narrowest throat is inaccurate: the flow slows down in a layer of the thickness λ = b √(α/12)
+/// at its walls. The depth-averaged equation u − λ² u″ = const. on rows dx apart, no slip half a row beside the outer ones, has the displacement thickness
+/// λ/√(1 + (dx/2λ)²) instead of λ, so that a throat w wide conducts (2λ/w)(1 − 1/√(1 + (dx/2λ)²))/(1 − 2λ/w) too much.
+fn unresolved_layer(sph: &Sph, depth: f64, width: f64, median: f64) -> Option<String> {
+    let profile = sph.profile_factor.unwrap_or_else(|| profile_factor(median / depth));
+    let layer = depth * (profile / 12.0).sqrt();
+    let (displaced, rows) = (2.0 * layer / width, sph.spacing / (2.0 * layer));
+    let error = displaced * (1.0 - 1.0 / rows.hypot(1.0)) / (1.0 - displaced);
+    (displaced < 1.0 && error > LARGEST_ERROR).then(|| {
+        format!(
+            "the layer beside walls in which the flow between floor and lid slows down is {layer:.2e} m thick, which a spacing of {:.2e} m does not \
+             resolve: the narrowest throat, {width:.2e} m wide, conducts about {:.0} % too much",
+            sph.spacing,
+            100.0 * error
+        )
+    })
 }
 
 /// The note if throats are so much narrower or wider than the median one that a single profile factor cannot describe the flow in both.

@@ -1,8 +1,9 @@
 //! Open sides: flows that must pass them unchanged, the balance of what passes, and resuming with buffers.
 
 use crate::support::dice::Dice;
-use crate::support::flow::flow;
+use crate::support::flow::{flow, solver};
 use meniscus_case::ViscousStep;
+use meniscus_core::solver::Solver;
 use meniscus_sph::flow::Flow;
 use meniscus_sph::open::BoundaryFluxes;
 use meniscus_sph::particles::Phase;
@@ -131,6 +132,19 @@ fn the_phase_of_an_inlet_drives_the_other_one_out() {
     let inside = BoundaryFluxes::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
     assert_eq!(inside, [0, 200]);
     assert_eq!(missing(&flow), [0, 0]);
+}
+
+#[test]
+fn a_run_that_stops_at_breakthrough_ends_when_20_particles_have_passed() {
+    let sides = PLUG.replace("velocity = 0.01\n[", "velocity = 0.01\nphase = \"non-wetting\"\n[");
+    let filled = OTHER_FLUID.replace("size = [4.0e-3, 1.0e-3]", "size = [4.0e-3, 4.0e-3]");
+    let text = channel(&format!("{sides}{filled}[sph.stop]\nbreakthrough = true\n"));
+    let mut solver = solver(&text);
+    while !solver.is_done() && solver.time() < 0.3 {
+        solver.step(0.3).unwrap();
+    }
+    // The flat front passes 2 mm in 0.2 s, and a row of ten particles each 0.01 s.
+    assert!(solver.is_done() && (solver.time() - 0.215).abs() < 0.0051, "{} s", solver.time());
 }
 
 #[test]

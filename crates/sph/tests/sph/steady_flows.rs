@@ -6,8 +6,8 @@ use meniscus_core::math::Vec2;
 use meniscus_core::solver::Solver;
 use meniscus_sph::solver::SphSolver;
 
-/// Largest relative difference: at 20 spacings per cell particles that move past obstacles change the flow by so much from record to record.
-const LARGEST: f64 = 1e-2;
+/// Largest relative difference at 40 spacings per cell. At 20 it is 5e-3: each step evens out the density of the particles, and more steps do so further.
+const LARGEST: f64 = 2e-3;
 
 /// Runs to `end` (s) with so many records.
 fn recorded(solver: &mut SphSolver, records: u32, end: f64) {
@@ -55,13 +55,13 @@ fn array(dice: &mut Dice) -> String {
     let discs: Vec<String> = (0..count).map(disc).collect();
     let direction = dice.between(0.0, std::f64::consts::TAU);
     let (x, y) = (0.01 * direction.cos(), 0.01 * direction.sin());
-    case(5e-5, 1e-3, &discs.join(", "), &format!("gravity = [{x:e}, {y:e}]\n{PERIODIC}"))
+    case(2.5e-5, 1e-3, &discs.join(", "), &format!("gravity = [{x:e}, {y:e}]\n{PERIODIC}"))
 }
 
 /// Issue: drag 48.8, 50.6 and 51.0 with 10, 20 and 100 records of one array, and a permeability off by 18 %. [Timmermans1996]
 #[test]
 fn a_steady_flow_past_obstacles_is_the_same_with_few_records_and_with_many() {
-    let arrays = std::env::var("MENISCUS_STEADY").ok().and_then(|count| count.parse().ok()).unwrap_or(4);
+    let arrays = std::env::var("MENISCUS_STEADY").ok().and_then(|count| count.parse().ok()).unwrap_or(3);
     let mut dice = Dice::new(7);
     for _ in 0..arrays {
         let text = array(&mut dice);
@@ -98,8 +98,8 @@ fn a_flow_between_given_pressures_or_at_a_given_rate_is_the_same_with_few_record
     let rate = PERIODIC.replace(" }", ", open.left = { velocity = 2.0e-5 } }");
     for sides in [pressures, &rate] {
         let found = [3, 20, 100].map(|records| {
-            let mut solver = solver(&case(5e-5, 1e-3, disc, sides));
-            recorded(&mut solver, records, 0.04);
+            let mut solver = solver(&case(2.5e-5, 1e-3, disc, sides));
+            recorded(&mut solver, records, 0.08);
             let gradient = solver.flow.view().driving_gradient().x;
             if gradient > 0.0 { gradient } else { velocities(&solver).0.x }
         });

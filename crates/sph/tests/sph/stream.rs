@@ -164,7 +164,7 @@ fn ahead_of_a_held_drop_is_the_way_of_the_stream_in_every_record() {
             for (a, b) in right.iter().zip(&left).skip(1) {
                 let scale = a[column].abs().max([10.0, 10.0, 1e-5, 1e-5][column]);
                 assert!(
-                    (a[column] - b[column]).abs() < 0.2 * scale,
+                    (a[column] - b[column]).abs() < 0.02 * scale,
                     "column {column}: {} and {}",
                     a[column],
                     b[column]
