@@ -67,6 +67,7 @@ def network(
     process: str | None = None,
     cycles: int | None = None,
     trapping: bool | None = None,
+    films: str | None = None,
     periodic: str | None = None,
     depth: float | None = None,
     persistence: float | None = None,
@@ -101,6 +102,7 @@ def network(
         process: ``drainage`` (default), ``imbibition`` or ``cycle``.
         cycles: number of cycles of ``process="cycle"``.
         trapping: whether a defending region without a path to the outlet is trapped (default yes).
+        films: how films in the corners of a chip are connected: ``none``, ``rings`` (default where corners hold any) or ``joined``.
         periodic: periodic directions: ``x``, ``y`` or ``xy``.
         depth: distance between floor and lid in m; that of the file if None, and without one all results are per meter of depth.
         persistence: persistence ratio above which two maxima of the wall distance count as one pore, 0.5 to 1.
@@ -160,6 +162,7 @@ def network(
         "process": process,
         "cycles": cycles,
         "trapping": trapping,
+        "films": films,
         "periodic": axes[periodic],
         "depth": depth,
         "persistence": persistence,

@@ -14,7 +14,7 @@ use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
 use meniscus_case::SideName;
-use meniscus_case::network::RawProcess;
+use meniscus_case::network::{FilmModel, RawProcess};
 use meniscus_core::input::tables::Words;
 
 /// Exit codes, as in the help.
@@ -161,6 +161,9 @@ pub(crate) struct NetworkArguments {
     /// Whether a defending region without a path to the outlet is trapped (default true)
     #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
     pub(crate) trapping: Option<bool>,
+    /// How films in the corners of a chip are connected (default rings, where angles of walls and plates sum to less than 90 degrees)
+    #[arg(long, value_parser = word::<FilmModel>(), value_name = "MODEL")]
+    pub(crate) films: Option<FilmModel>,
     /// Makes opposite sides periodic
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,

@@ -33,6 +33,7 @@ fn options(arguments: &NetworkArguments) -> NetworkOptions {
         process: arguments.process,
         cycles: arguments.cycles,
         trapping: arguments.trapping,
+        films: arguments.films,
         periodic: arguments.periodic.map(PeriodicAxes::along).unwrap_or_default(),
         depth: arguments.depth,
     }

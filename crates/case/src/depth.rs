@@ -1,7 +1,7 @@
 //! `depth` of `[geometry]`: which models support it, and what it requires.
 
 use super::case_file::Model;
-use super::network::refuse_films;
+use super::network::films;
 use super::wetting::PatchedWall;
 use meniscus_core::input::{Checker, Problem};
 use meniscus_geometry::spec::GeometrySpec;
@@ -34,7 +34,7 @@ pub(super) fn depth(
             ("sph", &sph.wetting_patches[..])
         }
         Some(Model::Network(network)) => {
-            refuse_films(checker, network, depth);
+            films(checker, network, depth);
             ("network", network.interface.as_ref().map_or(&[][..], |interface| &interface.patches))
         }
         Some(Model::ThinFilm(_)) if depth.is_some() => {

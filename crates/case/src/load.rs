@@ -119,6 +119,9 @@ pub fn load_from(origin: &Origin, overrides: &Overrides, kept: Option<&KeptGeome
     let mut model = model(&mut checker, &mut raw, geometry.as_ref(), start);
     let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth).or(of_file);
     depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref(), has_wetting_table);
+    if let (Some(raw), Some(Model::Network(network))) = (raw.network.as_mut(), model.as_ref()) {
+        raw.films = network.displacement.as_ref().and_then(|displacement| displacement.films);
+    }
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
     relative_permeability::relative_permeability(&mut checker, model.as_ref());

@@ -203,7 +203,7 @@ fn of_network() -> Vec<Offer> {
             "largest-entry-pressure-Pa"
             // Saturation of the invading phase when it first reaches the outlet
             "saturation-at-breakthrough"
-            // Final saturation of the displaced phase where it has no path to the outlet
+            // Final saturation of the displaced phase where it has no path to the outlet; in drainage with what films keep that have none
             "trapped-saturation"
             // Final saturation of the wetting phase
             "final-wetting-saturation"
@@ -226,6 +226,10 @@ fn of_quasi_static_network(network: &PoreNetwork) -> Vec<Offer> {
             "breakthrough-pressure-Pa"
             // Final saturation of the displaced phase
             "residual-saturation"
+            // Where corners hold films: `trapped-saturation` if they were connected in the other two ways of `films`
+            "trapped-saturation-without-films"
+            "trapped-saturation-with-rings"
+            "trapped-saturation-with-joined-films"
             // With `films`: share of the pore space in films at the end, a part of the wetting saturation
             "film-saturation"
             // With `films`: number of throats that films closed

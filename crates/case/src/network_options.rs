@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::fluid::RawInterface;
-use super::network::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
+use super::network::{FilmModel, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
 use super::side::SideName;
 use super::wetting::RawWetting;
 use meniscus_wetting::{Wetting, Young};
@@ -33,6 +33,8 @@ pub struct NetworkOptions {
     pub cycles: Option<u32>,
     /// Whether a defending region without a path to the outlet is trapped.
     pub trapping: Option<bool>,
+    /// How films in the corners of a chip are connected.
+    pub films: Option<FilmModel>,
     /// Whether the domain is periodic along x and along y.
     pub periodic: [bool; 2],
     /// Depth of the chip (distance between floor and lid) in m.
@@ -73,6 +75,7 @@ impl NetworkOptions {
             process: self.process,
             cycles: self.cycles,
             trapping: self.trapping,
+            films: self.films,
             persistence: self.persistence,
             ..RawNetwork::default()
         }

@@ -40,8 +40,9 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
         // Films continue to the last pressure after the displacement is complete.
         const BEYOND: f64 = 1e-9;
         // No half cycle can displace more than the whole pore space.
-        let end =
-            |it: &NetworkDisplacement| f64::from(it.process.half_cycles()) * if it.films { 1.0 + BEYOND } else { 1.0 };
+        let end = |it: &NetworkDisplacement| {
+            f64::from(it.process.half_cycles()) * if it.has_films() { 1.0 + BEYOND } else { 1.0 }
+        };
         return Some(network.displacement.as_ref().map_or(0.0, end));
     }
     let end = raw.time.as_ref().and_then(|time| time.end);

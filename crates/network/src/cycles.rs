@@ -12,6 +12,7 @@ pub(crate) use super::half_cycle::HalfCycle;
 use super::moment::Moment;
 use super::region::Counted;
 pub use meniscus_case::FluidPhase;
+use meniscus_case::network::FilmModel;
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,6 +216,21 @@ impl Cycles {
         Self::new(network, pores, self.half_cycles.clone(), self.initial.clone(), None, counted)
     }
 
+    /// Trapped saturation at the end of the same displacement with films that are connected in another way.
+    pub(crate) fn trapped_with(&self, network: &Network, pores: &Pores, films: FilmModel) -> Option<f64> {
+        let half_cycles = self.half_cycles.iter().map(|half| half.with_films(films, network)).collect();
+        let counted = |_: &Displacement| Counted::clone(&self.counted);
+        let mut other = Self::new(network, pores, half_cycles, self.initial.clone(), None, counted)?;
+        while other.advance().is_some() {}
+        Some(other.trapped_saturation())
+    }
+
+    /// How films are connected, if corners can hold any.
+    pub(crate) fn film_model(&self) -> Option<FilmModel> {
+        let model = self.half_cycles[0].film_model;
+        self.half_cycles.iter().any(|half| half.corners.is_some()).then_some(model)
+    }
+
     /// Performs the next event, or starts the next half cycle; `None` if the displacement is over.
     pub fn advance(&mut self) -> Option<&'static str> {
         if self.is_done {
@@ -321,8 +337,11 @@ impl Cycles {
     /// Saturation of the trapped defending phase.
     pub fn trapped_saturation(&self) -> f64 {
         let trapped = self.counted.area_of(|element| self.displacement.is_trapped(element));
-        let films = self.films.as_ref().map_or(0.0, |films| films.trapped_area(&self.displacement));
-        (trapped - films) / self.counted.sum
+        let films = self.films.as_ref().map_or(0.0, |films| match self.half_cycle().invading {
+            FluidPhase::NonWetting => films.kept_area(&self.displacement),
+            FluidPhase::Wetting => -films.trapped_area(&self.displacement),
+        });
+        (trapped + films) / self.counted.sum
     }
 
     /// All events so far.

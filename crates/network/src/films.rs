@@ -1,12 +1,13 @@
 //! Volume of the corner films of a chip: in elements of the non-wetting phase they count as wetting phase.
 //!
 //! Each wall of such an element has two films, at floor and lid, with the cross-section r² S each, r = σ/(p_n - p_w). Their thickness is
-//! bounded by contact with another film, on the same wall or, on average over the element, on a plate. Films around trapped ganglia keep the
-//! pressure at which these were cut off; all others follow the applied one.
+//! bounded by contact with another film, on the same wall or, on average over the element, on a plate. Films around trapped ganglia, and those of rings that
+//! are cut off, keep the pressure at which they were; all others follow the applied one.
 
-use super::displacement::{Beginning, Displacement, Phase};
+use super::displacement::{Beginning, Displacement, FilmPaths, Phase};
 use super::graph::{Network, Throat, WallPiece};
 use meniscus_case::FluidPhase;
+use meniscus_case::network::FilmModel;
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
 use meniscus_geometry::interface::depth::Depth;
@@ -22,14 +23,20 @@ pub(crate) struct FilmTerms {
 }
 
 impl FilmTerms {
-    /// For each throat the curvature in the plane (1/m, positive if it bulges into the non-wetting phase) at which its films meet; infinite without films.
-    pub(crate) fn meeting(&self, network: &Network) -> Vec<f64> {
+    /// For each throat the curvature in the plane (1/m, positive if it bulges into the defending phase) at which its films meet; infinite without films.
+    fn meeting(&self, network: &Network, invading: FluidPhase) -> Vec<f64> {
         let throat = |throat: &Throat| {
             let walls = throat.shapes.map(|shape| &self.walls[shape as usize]);
             let curvature = meeting(throat.width, self.depth.distance(), walls);
-            if curvature > 0.0 { -self.depth.plane(curvature) } else { f64::INFINITY }
+            if curvature > 0.0 { invading.towards_wetting(self.depth.plane(curvature)) } else { f64::INFINITY }
         };
         network.throats.iter().map(throat).collect()
+    }
+
+    /// What the films connect.
+    pub(crate) fn paths(&self, network: &Network, invading: FluidPhase, model: FilmModel) -> FilmPaths {
+        let rings = (model == FilmModel::Rings).then(|| self.walls.iter().map(WallFilms::exist).collect());
+        FilmPaths { meeting: self.meeting(network, invading), rings }
     }
 }
 
@@ -46,11 +53,19 @@ pub(crate) struct CurvePoint {
     pub(crate) film_saturation: f64,
 }
 
-/// The films of one element.
+/// Films of one element that share a connection: those along the walls of one ring, or, if all films are joined, all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct ElementFilms {
+struct Part {
+    ring: Option<u32>,
     /// Volume over the depth at a radius of 1 m, in m² per m².
     unit: f64,
+    state: Film,
+}
+
+/// The films of one element.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct ElementFilms {
+    parts: Vec<Part>,
     /// Largest radius in m.
     largest: f64,
 }
@@ -58,32 +73,42 @@ struct ElementFilms {
 impl ElementFilms {
     fn new(displacement: &Displacement, element: usize, terms: &FilmTerms) -> Self {
         let area = displacement.elements()[element].area;
-        let (mut unit, mut largest, mut on_plates) = (0.0, f64::INFINITY, [0.0; 2]);
-        for piece in displacement.wall_pieces(element) {
+        let (mut parts, mut largest, mut on_plates) = (Vec::new(), f64::INFINITY, [0.0; 2]);
+        for (k, piece) in displacement.wall_pieces(element).enumerate() {
             let (films, length) = (&terms.walls[piece.shape as usize], piece.curve.length());
-            unit += length * films.area() / terms.depth.distance();
+            let ring = displacement.rings().and_then(|rings| rings.of_piece[element][k]);
+            let index = parts.iter().position(|part: &Part| part.ring == ring).unwrap_or_else(|| {
+                parts.push(Part { ring, unit: 0.0, state: Film::Absent });
+                parts.len() - 1
+            });
+            parts[index].unit += length * films.area() / terms.depth.distance();
             largest = largest.min(terms.depth.distance() / films.along_wall());
             let along = films.along_plates();
             on_plates = [0, 1].map(|plate| on_plates[plate] + length * along[plate]);
         }
         let largest = on_plates.into_iter().fold(largest, |largest, along| largest.min(area / along));
-        Self { unit, largest }
+        Self { parts, largest }
     }
 
     fn radius(&self, curvature: f64) -> f64 {
         if curvature > 0.0 { (1.0 / curvature).min(self.largest) } else { self.largest }
     }
 
-    /// Volume over the depth in m² at (p_n - p_w)/σ in 1/m.
-    fn area(&self, curvature: f64) -> f64 {
-        if self.unit > 0.0 { self.unit * self.radius(curvature).powi(2) } else { 0.0 }
+    /// Volume over the depth in m² of a part at (p_n - p_w)/σ in 1/m.
+    fn area(&self, part: &Part, curvature: f64) -> f64 {
+        if part.unit > 0.0 { part.unit * self.radius(curvature).powi(2) } else { 0.0 }
+    }
+
+    /// The state of the films of a ring.
+    fn state(&self, ring: Option<u32>) -> Film {
+        self.parts.iter().find(|part| part.ring == ring).map_or(Film::Absent, |part| part.state)
     }
 }
 
-/// Whether an element has films, and which pressure they have.
+/// Whether there are films, and which pressure they have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Film {
-    /// None: the wetting phase fills it.
+    /// None: the wetting phase fills the element.
     Absent,
     /// They follow the applied pressure.
     Free,
@@ -91,12 +116,22 @@ enum Film {
     Kept(f64),
 }
 
+impl Film {
+    /// (p_n - p_w)/σ in 1/m while `applied` is the applied one.
+    fn curvature(self, applied: f64) -> Option<f64> {
+        match self {
+            Self::Absent => None,
+            Self::Free => Some(applied),
+            Self::Kept(kept) => Some(kept),
+        }
+    }
+}
+
 /// All films at one moment.
 #[derive(Debug, Clone)]
 pub(crate) struct Films {
     terms: FilmTerms,
     elements: Vec<ElementFilms>,
-    states: Vec<Film>,
     /// Fraction of each element that counts in saturations.
     shares: Vec<f64>,
     /// (p_n - p_w)/σ in 1/m.
@@ -107,8 +142,8 @@ impl Films {
     /// Initial films: at zero capillary pressure in drainage, infinite in imbibition.
     pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms, shares: Vec<f64>) -> Self {
         let curvature = if invading == FluidPhase::Wetting { f64::INFINITY } else { 0.0 };
-        let states = vec![Film::Absent; displacement.elements().len()];
-        Self { elements: Vec::new(), states, shares, curvature, terms }.with_terms(displacement, None)
+        let elements = vec![ElementFilms::default(); displacement.elements().len()];
+        Self { elements, shares, curvature, terms }.with_terms(displacement, None)
     }
 
     /// The same at the initial pressure of a displacement that continues another one.
@@ -124,21 +159,27 @@ impl Films {
     /// The same with the other phase invading.
     pub(crate) fn with_terms(mut self, displacement: &Displacement, terms: Option<FilmTerms>) -> Self {
         self.terms = terms.unwrap_or(self.terms);
-        let count = displacement.elements().len();
-        self.elements = (0..count).map(|element| ElementFilms::new(displacement, element, &self.terms)).collect();
+        for (element, before) in self.elements.iter_mut().enumerate() {
+            let mut films = ElementFilms::new(displacement, element, &self.terms);
+            films.parts.iter_mut().for_each(|part| part.state = before.state(part.ring));
+            *before = films;
+        }
         self
     }
 
     /// Updates the films to the present phases at the present curvature.
     pub(crate) fn update(&mut self, displacement: &Displacement, invading: FluidPhase) {
-        for (element, state) in self.states.iter_mut().enumerate() {
+        for (element, films) in self.elements.iter_mut().enumerate() {
             let is_wetting = (displacement.phase(element) == Phase::Invading) == (invading == FluidPhase::Wetting);
-            *state = match *state {
-                _ if is_wetting => Film::Absent,
-                _ if !displacement.is_cut_off(element) => Film::Free,
-                Film::Kept(curvature) => Film::Kept(curvature),
-                Film::Absent | Film::Free => Film::Kept(self.curvature),
-            };
+            let is_cut_off = displacement.is_cut_off(element);
+            for part in &mut films.parts {
+                part.state = match part.state {
+                    _ if is_wetting => Film::Absent,
+                    _ if !is_cut_off && part.ring.is_none_or(|ring| displacement.is_fed(ring)) => Film::Free,
+                    Film::Kept(curvature) => Film::Kept(curvature),
+                    Film::Absent | Film::Free => Film::Kept(self.curvature),
+                };
+            }
         }
     }
 
@@ -149,15 +190,26 @@ impl Films {
 
     /// Volume over the depth in m² of all films that count if (p_n - p_w)/σ were `curvature` in 1/m.
     pub(crate) fn area_at(&self, curvature: f64) -> f64 {
-        (0..self.states.len()).map(|element| self.shares[element] * self.area_of(element, curvature)).sum()
+        (0..self.elements.len()).map(|element| self.shares[element] * self.area_of(element, curvature)).sum()
     }
 
     fn area_of(&self, element: usize, curvature: f64) -> f64 {
-        match self.states[element] {
-            Film::Absent => 0.0,
-            Film::Free => self.elements[element].area(curvature),
-            Film::Kept(curvature) => self.elements[element].area(curvature),
-        }
+        let films = &self.elements[element];
+        let area = |part: &Part| part.state.curvature(curvature).map_or(0.0, |curvature| films.area(part, curvature));
+        films.parts.iter().map(area).sum()
+    }
+
+    /// The same at the present curvature of films that cannot leave an element of the invading non-wetting phase.
+    pub(crate) fn kept_area(&self, displacement: &Displacement) -> f64 {
+        let kept = |element: usize| {
+            let films = &self.elements[element];
+            let area = |part: &Part| match (part.ring, part.state) {
+                (Some(ring), Film::Kept(curvature)) if !displacement.is_fed(ring) => films.area(part, curvature),
+                _ => 0.0,
+            };
+            self.shares[element] * films.parts.iter().map(area).sum::<f64>()
+        };
+        (0..self.elements.len()).map(kept).sum()
     }
 
     /// The same at the present curvature.
@@ -167,13 +219,13 @@ impl Films {
 
     /// The same of films around trapped ganglia.
     pub(crate) fn trapped_area(&self, displacement: &Displacement) -> f64 {
-        let trapped = (0..self.states.len()).filter(|&element| displacement.is_trapped(element));
+        let trapped = (0..self.elements.len()).filter(|&element| displacement.is_trapped(element));
         trapped.map(|element| self.shares[element] * self.area_of(element, self.curvature)).sum()
     }
 
     /// The films for pictures and tables.
     pub(crate) fn observed(&self, displacement: &Displacement) -> ObservedFilms {
-        let count = self.states.len();
+        let count = self.elements.len();
         let volume = |element| self.terms.depth.distance() * self.area_of(element, self.curvature);
         let strips = (0..count).flat_map(|element| self.strips(displacement, element)).collect();
         ObservedFilms { volume: (0..count).map(volume).collect(), strips }
@@ -182,13 +234,10 @@ impl Films {
     /// The films of an element from above: for each wall the middle line of the wider film, and its width in m.
     fn strips(&self, displacement: &Displacement, element: usize) -> Vec<(Vec<Vec2>, f64)> {
         const LARGEST_TURN: f64 = 0.1;
-        let curvature = match self.states[element] {
-            Film::Absent => return Vec::new(),
-            Film::Free => self.curvature,
-            Film::Kept(curvature) => curvature,
-        };
-        let radius = self.elements[element].radius(curvature);
-        let strip = |piece: &WallPiece| {
+        let films = &self.elements[element];
+        let strip = |(k, piece): (usize, &WallPiece)| {
+            let ring = displacement.rings().and_then(|rings| rings.of_piece[element][k]);
+            let radius = films.radius(films.state(ring).curvature(self.curvature)?);
             let [floor, lid] = self.terms.walls[piece.shape as usize].along_plates();
             let width = radius * floor.max(lid);
             let turn = match piece.curve {
@@ -202,7 +251,7 @@ impl Films {
             };
             (width > 0.0).then(|| ((0..=parts as usize).map(point).collect(), width))
         };
-        displacement.wall_pieces(element).filter_map(strip).collect()
+        displacement.wall_pieces(element).enumerate().filter_map(strip).collect()
     }
 }
 

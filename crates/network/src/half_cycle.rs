@@ -1,9 +1,10 @@
 //! One drainage or imbibition: the invading phase, the conditions, and the end.
 
-use super::displacement::Conditions;
+use super::displacement::{Conditions, CornerFilms};
 use super::films::FilmTerms;
+use super::graph::Network;
 use meniscus_case::FluidPhase;
-use meniscus_case::network::Stop;
+use meniscus_case::network::{FilmModel, Stop};
 
 /// One drainage or imbibition.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,4 +17,23 @@ pub struct HalfCycle {
     pub(crate) stop: Stop,
     /// The corner films, if any.
     pub(crate) films: Option<FilmTerms>,
+    /// Those that its corners can hold.
+    pub(crate) corners: Option<FilmTerms>,
+    /// How they are connected.
+    pub(crate) film_model: FilmModel,
+}
+
+impl HalfCycle {
+    /// The same with films that are connected in this way.
+    pub(crate) fn with_films(&self, film_model: FilmModel, network: &Network) -> Self {
+        let films = self.corners.clone().filter(|_| film_model != FilmModel::None);
+        let paths = films.as_ref().map(|terms| terms.paths(network, self.invading, film_model));
+        let films_of_conditions = match (paths, self.invading) {
+            (None, _) => CornerFilms::Absent,
+            (Some(paths), FluidPhase::NonWetting) => CornerFilms::Drain(paths),
+            (Some(paths), FluidPhase::Wetting) => CornerFilms::Join(paths),
+        };
+        let conditions = Conditions { films: films_of_conditions, ..self.conditions.clone() };
+        Self { conditions, films, film_model, ..self.clone() }
+    }
 }

@@ -7,6 +7,7 @@ use super::model::{Configuration, Model};
 use super::permeability::Drive;
 use super::tables::kept;
 use super::warnings::notes_on_permeability;
+use meniscus_case::network::FilmModel;
 use meniscus_core::solver::{Measure, measure};
 
 /// Measures that need the conductance of every throat.
@@ -17,6 +18,10 @@ const PERMEABILITIES: [&str; 4] =
 const ENTRY_PRESSURES: [&str; 3] =
     ["smallest-entry-pressure-Pa", "median-entry-pressure-Pa", "largest-entry-pressure-Pa"];
 
+/// Measures that repeat the displacement with corner films that are connected otherwise.
+const OTHER_FILMS: [&str; 3] =
+    ["trapped-saturation-without-films", "trapped-saturation-with-rings", "trapped-saturation-with-joined-films"];
+
 /// Which of the measures are found that take as long as the displacement itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Costly {
@@ -24,16 +29,22 @@ pub struct Costly {
     pub permeabilities: bool,
     /// The distribution of the entry pressures.
     pub entry_pressures: bool,
+    /// What corner films that are connected otherwise would trap.
+    pub other_films: bool,
 }
 
 impl Costly {
     /// All of them.
-    pub const ALL: Self = Self { permeabilities: true, entry_pressures: true };
+    pub const ALL: Self = Self { permeabilities: true, entry_pressures: true, other_films: true };
 
     /// Those of which a name is wanted.
     pub fn wanted(is_wanted: impl Fn(&str) -> bool) -> Self {
         let any = |names: &[&str]| names.iter().any(|name| is_wanted(name));
-        Self { permeabilities: any(&PERMEABILITIES), entry_pressures: any(&ENTRY_PRESSURES) }
+        Self {
+            permeabilities: any(&PERMEABILITIES),
+            entry_pressures: any(&ENTRY_PRESSURES),
+            other_films: any(&OTHER_FILMS),
+        }
     }
 }
 
@@ -44,8 +55,24 @@ pub(crate) fn all(model: &Model, costly: Costly) -> Vec<Measure> {
     found.extend(replaced(model));
     if let Some(cycles) = &model.cycles {
         found.extend(of_displacement(config, cycles));
+        if costly.other_films && cycles.is_done {
+            found.extend(with_other_films(model));
+        }
     }
     found
+}
+
+/// What the same displacement traps with corner films that are connected in the other two ways.
+fn with_other_films(model: &Model) -> Vec<Measure> {
+    let [without, with_rings, joined] = OTHER_FILMS;
+    let name = |films: FilmModel| match films {
+        FilmModel::None => without,
+        FilmModel::Rings => with_rings,
+        FilmModel::Joined => joined,
+    };
+    let method = "trapped-saturation of the same displacement with another network.films";
+    let of = |&(films, trapped): &(FilmModel, f64)| measure(name(films), trapped, "").by(method);
+    model.trapped_otherwise().iter().map(of).collect()
 }
 
 /// The measures without a displacement.
@@ -145,6 +172,12 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
         "at the event by which the invading phase reached the outlet"
     };
     let (name, space) = (first.invading.process(), config.space());
+    let films = match cycles.film_model() {
+        Some(FilmModel::None) => "; no films in corners, although they hold some",
+        Some(FilmModel::Rings) => "; films in corners as rings around each wall",
+        Some(FilmModel::Joined) => "; all films in corners joined",
+        None => "",
+    };
     let invading = cycles.half_cycle().invading;
     let wetting = cycles.saturation();
     let (left, of) = match invading {
@@ -164,7 +197,7 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
         measure("residual-saturation", left, "")
             .by(format!("share of the {space} that the {of} phase, the displaced one, holds {ending}")),
         measure("trapped-saturation", cycles.trapped_saturation(), "")
-            .by(format!("share of the {space} where the {of} phase has no path to the outlet, {ending}")),
+            .by(format!("share of the {space} where the {of} phase has no path to the outlet, {ending}{films}")),
         measure("final-wetting-saturation", wetting, "")
             .by(format!("share of the {space} that the wetting phase holds, {ending}")),
         measure("largest-capillary-pressure-Pa", config.tension.unwrap_or(f64::NAN) * largest, "Pa")

@@ -8,6 +8,7 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use meniscus_case::Side;
+use meniscus_case::network::FilmModel;
 use meniscus_core::math::Bounds;
 use meniscus_core::snapshot::Lines;
 use meniscus_geometry::interface::depth::Depth;
@@ -99,12 +100,13 @@ pub(crate) struct Model {
     /// The displacement; `None` if the network is only extracted.
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
+    trapped_otherwise: OnceCell<Vec<(FilmModel, f64)>>,
 }
 
 impl Model {
     /// A network in its initial state.
     pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
-        Self { config, cycles, entry_curvatures: OnceCell::new() }
+        Self { config, cycles, entry_curvatures: OnceCell::new(), trapped_otherwise: OnceCell::new() }
     }
 
     /// Entry curvatures of the throats of the network in drainage, in 1/m; `None` without a contact angle.
@@ -119,6 +121,21 @@ impl Model {
             known.map_or_else(new, |displacement| displacement.entry_curvatures(conditions, throats))
         };
         Some(self.entry_curvatures.get_or_init(find))
+    }
+
+    /// Trapped saturation with corner films that are connected in the two other ways; empty if no corner holds any.
+    pub(crate) fn trapped_otherwise(&self) -> &[(FilmModel, f64)] {
+        let find = || {
+            let Some((cycles, present)) = self.cycles.as_ref().and_then(|cycles| Some((cycles, cycles.film_model()?)))
+            else {
+                return Vec::new();
+            };
+            let others =
+                [FilmModel::None, FilmModel::Rings, FilmModel::Joined].into_iter().filter(|model| *model != present);
+            let Configuration { network, pores, .. } = &self.config;
+            others.filter_map(|model| Some((model, cycles.trapped_with(network, pores, model)?))).collect()
+        };
+        self.trapped_otherwise.get_or_init(find)
     }
 
     /// Number of throats of the network whose measured entry pressure replaces the formula under given conditions.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::angles::{angles, depth_for, film_terms};
 use super::cycles::{Cycles, FluidPhase, HalfCycle};
-use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, MeasuredBurst};
+use super::displacement::{Beginning, Conditions, Displacement, Element, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{Drive, Dynamic, Terms};
 use super::graph::Network;
@@ -16,9 +16,12 @@ use super::solver::NetworkSolver;
 use super::state;
 use meniscus_case::network::measured::MeasuredThroat;
 use meniscus_case::network::state::{ElementState, Start};
-use meniscus_case::network::{DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop};
+use meniscus_case::network::{
+    DynamicDrive, FilmModel, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop,
+};
 use meniscus_case::{Case, SIDES, Side};
 use meniscus_core::solver::Solver;
+use meniscus_geometry::interface::films::WallFilms;
 
 /// The solver of a case in its initial state.
 pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
@@ -193,8 +196,7 @@ fn half_cycles(wanted: &PoreNetwork, walls: usize, network: &Network) -> Vec<Hal
             let curvature = pressure / interface.tension;
             network.depth.map_or(curvature, |depth| depth_for(invading, depth, interface).plane(curvature))
         };
-        let depth = network.depth.filter(|_| displacement.films);
-        let films = depth.map(|depth| film_terms(invading, depth, interface, walls));
+        let corners = network.depth.map(|depth| film_terms(invading, depth, interface, walls));
         HalfCycle {
             invading,
             conditions: Conditions {
@@ -204,16 +206,14 @@ fn half_cycles(wanted: &PoreNetwork, walls: usize, network: &Network) -> Vec<Hal
                 events: displacement.events,
                 largest_curvature: stop.capillary_pressure.map_or(f64::INFINITY, |pressure| sign * in_plane(pressure)),
                 measured: measured(wanted),
-                films: match &films {
-                    None => CornerFilms::Absent,
-                    Some(_) if invading == FluidPhase::NonWetting => CornerFilms::Drain,
-                    Some(terms) => CornerFilms::Join { meeting: terms.meeting(network) },
-                },
                 ..Conditions::new(angles(interface, walls, invading))
             },
-            films,
             stop,
+            films: None,
+            corners: corners.filter(|terms| terms.walls.iter().any(WallFilms::exist)),
+            film_model: FilmModel::None,
         }
+        .with_films(displacement.films.unwrap_or(FilmModel::None), network)
     };
     let forwards = [Side::Inlet, Side::Outlet];
     let backwards = [Side::Outlet, Side::Inlet];

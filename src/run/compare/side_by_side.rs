@@ -9,8 +9,8 @@ use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
-use meniscus_case::network::PoreNetwork;
 use meniscus_case::network::state::NetworkState;
+use meniscus_case::network::{FilmModel, PoreNetwork};
 use meniscus_case::{Case, FluidPhase, Model};
 use meniscus_core::solver::Solver;
 use meniscus_geometry::elements::Elements;
@@ -66,7 +66,7 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
         return Err(CompareError::NoDirect);
     }
     let solver =
-        meniscus_network::setup::build_quasi_static(pair.network, &without_time(wanted)).map_err(SetupError::from)?;
+        meniscus_network::setup::build_quasi_static(pair.network, &comparable(wanted)).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
     if let Some(misfit) = state.misfit(&pair.direct.geometry) {
         return Err(CompareError::OtherGeometry(misfit));
@@ -83,10 +83,11 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
 }
 
 /// The same network without a displacement in time: it has the same elements.
-fn without_time(wanted: &PoreNetwork) -> PoreNetwork {
+fn comparable(wanted: &PoreNetwork) -> PoreNetwork {
     let mut wanted = wanted.clone();
     if let Some(displacement) = &mut wanted.displacement {
         displacement.dynamic = None;
+        displacement.films = Some(FilmModel::None);
     }
     wanted
 }

@@ -96,7 +96,17 @@ impl Ensemble {
         case.geometry.shapes = Vec::new();
         let group = self.group(run.name_of_group(study));
         let own = math::fnv1a(shapes, resolved.bytes()).to_le_bytes();
-        let own = fnv1a(&[&own[..], &[self.costly.permeabilities.into(), self.costly.entry_pressures.into()]].concat());
+        let own = fnv1a(
+            &[
+                &own[..],
+                &[
+                    self.costly.permeabilities.into(),
+                    self.costly.entry_pressures.into(),
+                    self.costly.other_films.into(),
+                ],
+            ]
+            .concat(),
+        );
         // A result depends on the map, too, which is that of the first sample.
         let digest = match self.samples.get(self.groups[group].first) {
             Some(first) => fnv1a(&[own.to_le_bytes(), first.digest.to_le_bytes()].concat()),

@@ -2,7 +2,7 @@
 
 use super::dynamic::{DynamicDrive, drive};
 use super::state::Start;
-use super::table::{Events, RawNetwork, RawProcess};
+use super::table::{Events, FilmModel, RawNetwork, RawProcess};
 use crate::side::Sides;
 use meniscus_core::input::Checker;
 
@@ -13,9 +13,9 @@ pub struct NetworkDisplacement {
     pub process: Process,
     /// What is trapped.
     pub trapping: Trapping,
-    /// Whether there are films of the wetting phase in the corners of a chip.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub films: bool,
+    /// How films of the wetting phase in the corners of a chip are connected; `None`: there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub films: Option<FilmModel>,
     /// Which events move menisci.
     pub events: Events,
     /// Criteria for an early end.
@@ -25,6 +25,13 @@ pub struct NetworkDisplacement {
     pub initial: Option<Start>,
     /// What drives it in time; `None` if it is quasi-static.
     pub dynamic: Option<DynamicDrive>,
+}
+
+impl NetworkDisplacement {
+    /// Whether there are films in corners.
+    pub fn has_films(&self) -> bool {
+        self.films.is_some_and(|films| films != FilmModel::None)
+    }
 }
 
 /// Which parts of the defending phase are trapped.
@@ -117,7 +124,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &mut RawNetwork, initial:
     NetworkDisplacement {
         process,
         trapping: raw.trapping.unwrap_or(true).into(),
-        films: raw.films.unwrap_or_default(),
+        films: raw.films,
         events: *raw.events.get_or_insert(Events::All),
         stop,
         dynamic,
@@ -164,7 +171,7 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("process", raw.process.is_some()),
         ("cycles", checker.is_given("network.cycles", raw.cycles.as_ref())),
         ("trapping", raw.trapping.is_some()),
-        ("films", raw.films == Some(true)),
+        ("films", raw.films.is_some()),
         ("events", raw.events.is_some()),
         ("stop", raw.stop.is_some()),
         ("initial", raw.initial.is_some()),

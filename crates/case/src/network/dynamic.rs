@@ -1,6 +1,6 @@
 //! `[network.dynamic]`: what drives a displacement in time.
 
-use super::table::{Events, RawNetwork};
+use super::table::{Events, FilmModel, RawNetwork};
 use meniscus_core::input::Checker;
 
 /// What drives a displacement in time.
@@ -70,7 +70,12 @@ pub(super) fn drive(checker: &mut Checker, raw: &mut RawNetwork, is_cycle: bool)
         ("process", is_cycle, "a cycle", "take drainage or imbibition"),
         ("events", raw.events == Some(Events::Burst), "invasion percolation", "leave events out"),
         ("trapping", raw.trapping.is_some(), "a rule for trapping", "leave it out: what cannot flow out is trapped"),
-        ("films", raw.films == Some(true), "quasi-static corner films", "leave films out"),
+        (
+            "films",
+            raw.films.is_some_and(|films| films != FilmModel::None),
+            "quasi-static corner films",
+            "leave films out",
+        ),
         (
             "stop.capillary-pressure",
             raw.stop.as_ref().is_some_and(|stop| stop.capillary_pressure.is_some()),

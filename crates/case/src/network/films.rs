@@ -1,35 +1,31 @@
-//! `films` of `[network]`: whether corners of a chip can contain films of the wetting phase.
+//! `films` of `[network]`: how films of the wetting phase in the corners of a chip are connected.
 
 use super::displacement::Process;
 use super::pore_network::{NetworkInterface, PoreNetwork};
+use super::table::FilmModel;
 use crate::wetting::{PatchedWall, on_plates};
 use meniscus_core::input::Checker;
 use meniscus_wetting::Wetting;
 
-/// Refuses films without a depth, and if no corner allows them.
-pub(crate) fn refuse_films(checker: &mut Checker, network: &PoreNetwork, depth: Option<f64>) {
-    const KEY: &str = "network.films";
-    let Some(displacement) = network.displacement.as_ref().filter(|displacement| displacement.films) else { return };
-    if depth.is_none() {
-        let message = "corner films lie between walls and floor or lid, and a plane has neither";
-        return checker.refuse(KEY, message, "add depth = 50e-6 to [geometry], or leave films out");
-    }
-    let Some(interface) = &network.interface else { return };
-    // The wetting phase recedes in drainage and advances in imbibition.
-    let half_cycles: &[(usize, &str)] = match displacement.process {
-        Process::Drainage => &[(0, "drainage")],
-        Process::Imbibition => &[(1, "imbibition")],
-        Process::Cycle(_) => &[(0, "drainage"), (1, "imbibition")],
+/// Refuses films without a depth, and sets the default: rings with a depth, where a corner holds a film.
+pub(crate) fn films(checker: &mut Checker, network: &mut PoreNetwork, depth: Option<f64>) {
+    let Some(displacement) = network.displacement.as_mut().filter(|displacement| displacement.dynamic.is_none()) else {
+        return;
     };
-    for &(end, name) in half_cycles {
-        let [wall, plate] = smallest_angles(interface, end).map(f64::to_degrees);
-        if wall + plate >= 90.0 {
-            let message = format!(
-                "no corner has a film in {name}: the smallest angles of a wall and of a plate, {wall:.1} and {plate:.1} degrees, sum to 90 or more"
-            );
-            let help = "films need wall and plate angles that sum to less than 90 degrees; leave films out, or change the angles";
-            return checker.refuse(KEY, message, help);
-        }
+    if depth.is_none() && displacement.has_films() {
+        let message = "corner films lie between walls and floor or lid, and a plane has neither";
+        checker.refuse("network.films", message, "add depth = 50e-6 to [geometry], or leave films out");
+    }
+    let Some(interface) = network.interface.as_ref().filter(|_| depth.is_some()) else { return };
+    // The wetting phase recedes in drainage and advances in imbibition.
+    let half_cycles: &[usize] = match displacement.process {
+        Process::Drainage => &[0],
+        Process::Imbibition => &[1],
+        Process::Cycle(_) => &[0, 1],
+    };
+    if half_cycles.iter().any(|&end| smallest_angles(interface, end).iter().sum::<f64>() < std::f64::consts::FRAC_PI_2)
+    {
+        displacement.films.get_or_insert(FilmModel::Rings);
     }
 }
 

@@ -30,9 +30,9 @@ tables! {
         pub cycles: u32 => Key::within("a number of cycles", 1.0, 100.0),
         /// Traps defending regions without a path to the outlet; else films drain them (default true).
         pub trapping: bool,
-        /// Films of the wetting phase in corners with floor and lid: they let it out and in, and close throats where they meet; needs `geometry.depth`
-        /// (default false).
-        pub films: bool,
+        /// How films of the wetting phase in corners with floor and lid are connected, through which it leaves and enters, and which close throats where they
+        /// meet; `rings` and `joined` need `geometry.depth` (default `rings` with a depth, where angles of walls and plates sum to less than 90 degrees).
+        pub films: FilmModel,
         /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
         pub events: Events,
         /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).
@@ -118,6 +118,16 @@ words! {
         Imbibition,
         /// Drainage from the inlet, then imbibition from the outlet, again and again.
         Cycle,
+    }
+
+    /// How films in corners are connected.
+    pub enum FilmModel {
+        /// No films.
+        None,
+        /// Those of each wall among themselves, and with others through the wetting phase that fills pores and throats.
+        Rings,
+        /// All of them: nothing is trapped in drainage.
+        Joined,
     }
 
     /// A region defined by the geometry.

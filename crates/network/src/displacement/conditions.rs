@@ -29,13 +29,20 @@ pub enum CornerFilms {
     /// No films.
     #[default]
     Absent,
-    /// The defending phase drains through them: none is trapped.
-    Drain,
-    /// The invading phase enters through them: all of it is connected, and it closes throats where films meet.
-    Join {
-        /// For each throat of the network the curvature in the plane (1/m, positive into the defending phase) at which its films meet; infinite if they do not.
-        meeting: Vec<f64>,
-    },
+    /// The defending phase drains through them.
+    Drain(FilmPaths),
+    /// The invading phase enters through them, and closes throats where films meet.
+    Join(FilmPaths),
+}
+
+/// What corner films connect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmPaths {
+    /// For each throat of the network the curvature in the plane (1/m, positive into the defending phase) at which its films meet: below it when the wetting
+    /// phase defends, from it on when it invades; infinite if they do not.
+    pub meeting: Vec<f64>,
+    /// For each written shape, and then for the four sides, whether its corners hold a film: each wall has a ring of its own. `None`: all films are joined.
+    pub rings: Option<Vec<bool>>,
 }
 
 /// A measured burst, which replaces that of the formula.

@@ -50,6 +50,8 @@ pub(super) struct Mesh {
     pub(crate) twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
     pub(crate) elements: Vec<Element>,
     pub(crate) gates: Vec<Gate>,
+    /// The side of each opening: left, right, bottom, top are 0 to 3.
+    pub(crate) side_of_opening: Vec<usize>,
 }
 
 /// The loop of a region.
@@ -146,6 +148,7 @@ impl Mesh {
 
     /// Sets both sides of each gate.
     fn joined(mut self, network: &Network, segments: usize, is_gate: &dyn Fn(usize) -> bool) -> Self {
+        self.side_of_opening = network.openings.iter().map(|opening| opening.side).collect();
         let throats = network.throats.len();
         let mut crossings = vec![[None; 2]; throats + segments];
         for (index, part) in self.loops.iter().enumerate() {

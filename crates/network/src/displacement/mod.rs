@@ -6,11 +6,12 @@
 //! that meet merge into one between their outer walls: within one element they fill it; if a grain ahead separates several elements, the merged meniscus fills
 //! all of them when it bursts or touches. Pressures are given as curvatures, (p_invading − p_defending)/σ.
 //!
-//! Corner films of a chip let the wetting phase out and in, and close throats when they meet (`snap_off`).
+//! Corner films of a chip let the wetting phase out and in along the walls (`rings`), and close throats when they meet (`snap_off`).
 //!
 //! Left out: areas swept by menisci between events, overlaps of a merged meniscus with a third one.
 
 mod conditions;
+mod connected;
 mod dead_ends;
 mod driven;
 mod event;
@@ -20,6 +21,7 @@ mod mesh;
 mod outflow;
 mod outline;
 mod progress;
+mod rings;
 mod sequence;
 mod snap_off;
 mod static_menisci;
@@ -27,7 +29,7 @@ mod trapping;
 mod wall_chains;
 mod walls;
 
-pub use self::conditions::{Conditions, CornerFilms, MeasuredBurst};
+pub use self::conditions::{Conditions, CornerFilms, FilmPaths, MeasuredBurst};
 pub(crate) use self::driven::{Advance, GateFacts};
 pub use self::event::EventKind;
 pub(crate) use self::mesh::FrontId;

@@ -6,7 +6,7 @@
 //! An element open at an outlet lets both phases out: the invading phase leaves through it without closing it. Otherwise the first finger
 //! to reach a manifold along a whole side would trap all remaining defending phase.
 
-use super::mesh::Mesh;
+use super::connected::Graph;
 
 /// Paths of the defending phase to the outlets.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,16 +16,19 @@ pub(super) struct Outflow {
 }
 
 impl Outflow {
-    /// Paths to the elements marked as outlets, whatever phase they hold, through the elements marked as defending.
-    pub(crate) fn new(mesh: &Mesh, closed: &[bool], defends: &[bool], is_outlet: &[bool]) -> Self {
-        let mut next = vec![None; defends.len()];
-        let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| is_outlet[e]).collect();
+    /// Paths to the elements marked as outlets, whatever phase they hold, through the elements marked as defending and all rings.
+    pub(crate) fn new(graph: Graph, defends: &[bool], is_outlet: &[bool]) -> Self {
+        let mut next = vec![None; graph.nodes()];
+        let mut queue: Vec<usize> = (0..graph.nodes()).filter(|&node| is_outlet[node]).collect();
         queue.iter().for_each(|&e| next[e] = Some(e));
         let mut at = 0;
         while let Some(&element) = queue.get(at) {
             at += 1;
-            for other in mesh.neighbors(closed, element) {
-                if defends[other] && next[other].is_none() {
+            for other in graph.neighbors(element) {
+                if defends.get(other).is_none_or(|defends| *defends)
+                    && next[other].is_none()
+                    && graph.leads(other, element)
+                {
                     next[other] = Some(element);
                     queue.push(other);
                 }
@@ -40,31 +43,34 @@ impl Outflow {
     }
 
     /// Removes an element, and returns those that have no path any more.
-    pub(crate) fn remove(&mut self, mesh: &Mesh, closed: &[bool], element: usize) -> Vec<usize> {
-        if self.next[element] == Some(element) {
-            return Vec::new();
+    pub(crate) fn remove(&mut self, graph: Graph, element: usize) -> Vec<usize> {
+        let is_outlet = self.next[element] == Some(element);
+        if !is_outlet {
+            self.next[element] = None;
         }
-        self.next[element] = None;
-        let lost = self.cut_from(mesh, closed, element);
-        self.mend(mesh, closed, lost)
+        let lost = self.cut_from(graph, element);
+        self.mend(graph, lost)
     }
 
-    /// Removes a gate between two elements, which is closed already, and returns those that have no path any more.
-    pub(crate) fn close(&mut self, mesh: &Mesh, closed: &[bool], [one, other]: [usize; 2]) -> Vec<usize> {
-        if mesh.neighbors(closed, one).any(|beside| beside == other) {
+    /// Removes the direct path between two elements or two rings, which is closed already, and returns those that have none any more.
+    pub(crate) fn close(&mut self, graph: Graph, [one, other]: [usize; 2]) -> Vec<usize> {
+        if graph.neighbors(one).any(|beside| beside == other) {
             return Vec::new();
         }
         let through = [(one, other), (other, one)].into_iter().find(|&(from, to)| self.next[from] == Some(to));
         let Some((from, _)) = through.filter(|_| one != other) else { return Vec::new() };
         self.next[from] = None;
-        self.mend(mesh, closed, vec![from])
+        self.mend(graph, vec![from])
     }
 
     /// Clears the path of all neighbors of an element whose path leads through it.
-    fn cut_from(&mut self, mesh: &Mesh, closed: &[bool], element: usize) -> Vec<usize> {
+    fn cut_from(&mut self, graph: Graph, element: usize) -> Vec<usize> {
         let mut lost = Vec::new();
-        for other in mesh.neighbors(closed, element) {
-            if other != element && self.next[other] == Some(element) {
+        for other in graph.neighbors(element) {
+            if other != element
+                && self.next[other] == Some(element)
+                && !(self.next[element] == Some(element) && graph.leads(other, element))
+            {
                 self.next[other] = None;
                 lost.push(other);
             }
@@ -73,17 +79,19 @@ impl Outflow {
     }
 
     /// Finds new paths for elements that have lost theirs and for all whose path led through them; returns those without one.
-    fn mend(&mut self, mesh: &Mesh, closed: &[bool], mut lost: Vec<usize>) -> Vec<usize> {
+    fn mend(&mut self, graph: Graph, mut lost: Vec<usize>) -> Vec<usize> {
         // The nearest first.
         let mut at = 0;
         while let Some(&cut) = lost.get(at) {
             at += 1;
-            lost.extend(self.cut_from(mesh, closed, cut));
+            lost.extend(self.cut_from(graph, cut));
         }
         // New paths start from elements beside connected ones, and spread among the others.
         let mut queue = Vec::new();
         for &cut in &lost {
-            if let Some(next) = mesh.neighbors(closed, cut).find(|&other| self.next[other].is_some()) {
+            if let Some(next) =
+                graph.neighbors(cut).find(|&other| self.next[other].is_some() && graph.leads(cut, other))
+            {
                 self.next[cut] = Some(next);
                 queue.push(cut);
             }
@@ -93,8 +101,8 @@ impl Outflow {
         let mut at = 0;
         while let Some(&found) = queue.get(at) {
             at += 1;
-            for other in mesh.neighbors(closed, found) {
-                if self.next[other].is_none() && is_lost.binary_search(&other).is_ok() {
+            for other in graph.neighbors(found) {
+                if self.next[other].is_none() && is_lost.binary_search(&other).is_ok() && graph.leads(other, found) {
                     self.next[other] = Some(found);
                     queue.push(other);
                 }

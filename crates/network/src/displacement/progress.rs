@@ -4,10 +4,12 @@ use std::collections::{BinaryHeap, VecDeque};
 use std::sync::Arc;
 
 use super::conditions::Conditions;
+use super::connected::Held;
 use super::event::Candidate;
 use super::mesh::Mesh;
 use super::outline::outline;
-use super::trapping::{Connection, Held};
+use super::rings::Rings;
+use super::trapping::Connection;
 use crate::graph::{Network, Pores, WallPiece};
 use meniscus_case::network::Events;
 use meniscus_core::math::Vec2;
@@ -66,6 +68,11 @@ pub struct Displacement {
     pub(super) closing: Vec<usize>,
     pub(super) opened: Vec<usize>,
     pub(super) applied: f64,
+    /// The corner films along each wall, if they differ in their connection; by gate, whether it joins the films on both sides of it.
+    pub(super) rings: Option<Arc<Rings>>,
+    pub(super) bridged: Vec<bool>,
+    /// Gates whose films part as the pressure rises, with the curvature in 1/m, the lowest last.
+    pub(super) partings: Vec<(f64, usize)>,
     is_outlet: Vec<bool>,
     has_reached_outlet: bool,
 }
@@ -133,7 +140,10 @@ impl Displacement {
         let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
         inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
         Self::closed_within(&mesh, &mut closed, &invaded, &conditions.films);
-        let held = Held { mesh: &mesh, invaded: &invaded, closed: &closed };
+        let rings = Self::rings_of(&mesh, &conditions.films);
+        let (bridged, partings) = Self::bridges(&mesh, rings.as_deref(), &conditions.films, &invaded, &closed);
+        let films = rings.as_deref().map(|rings| (rings, &bridged[..]));
+        let held = Held { mesh: &mesh, invaded: &invaded, closed: &closed, rings: films };
         let (connection, first) = Connection::begin(&conditions, held, [&inlets, &outlets]);
         let fronts = vec![const { [None, None] }; mesh.gates.len()];
         let mut begun = Self {
@@ -152,6 +162,9 @@ impl Displacement {
             closing: Vec::new(),
             opened: Vec::new(),
             applied: f64::NEG_INFINITY,
+            rings,
+            bridged,
+            partings,
             is_outlet: outlets,
             has_reached_outlet: false,
         };
@@ -168,6 +181,7 @@ impl Displacement {
             self.invaded[element] = true;
             self.stop_fronts_into(mesh, element);
             mesh.elements[element].gates.iter().for_each(|&(gate, _)| self.closed[gate] = false);
+            self.bridge_beside(mesh, element);
         }
         self.filled.extend_from_slice(elements);
     }
@@ -178,18 +192,26 @@ impl Displacement {
         let mut closing = std::mem::take(&mut self.closing);
         closing.retain(|&gate| self.closed[gate]);
         for &element in &elements {
-            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
-            let lost = self.connection.remove(held, element);
+            let (held, connection) = self.held(mesh);
+            let lost = connection.remove(held, element);
             self.leave(mesh, lost);
         }
         self.lose_through(mesh, &closing);
+        opened.iter().for_each(|&gate| self.part(mesh, gate));
         let beside = opened.iter().flat_map(|&gate| [mesh.element(gate, 0), mesh.element(gate, 1)]);
         for element in elements.into_iter().chain(beside) {
-            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
-            let joined = self.connection.join(held, element);
+            let (held, connection) = self.held(mesh);
+            let joined = connection.join(held, element);
             self.advance_from_all(mesh, &joined);
         }
+        self.queue_snap_off_of_fed(mesh);
         closing.into_iter().for_each(|gate| self.advance_from_closed(mesh, gate));
+    }
+
+    /// Phases, gates and films, and the connectivity by them.
+    pub(super) fn held<'a>(&'a mut self, mesh: &'a Mesh) -> (Held<'a>, &'a mut Connection) {
+        let rings = self.rings.as_deref().map(|rings| (rings, &self.bridged[..]));
+        (Held { mesh, invaded: &self.invaded, closed: &self.closed, rings }, &mut self.connection)
     }
 
     /// Elements are trapped at the applied curvature.
@@ -264,7 +286,19 @@ impl Displacement {
 
     /// Applies a curvature in 1/m below that of the next event.
     pub(crate) fn apply(&mut self, curvature: f64) {
+        let mesh = self.mesh.clone();
+        self.part_below(&mesh, curvature);
         self.applied = self.applied.max(curvature);
+    }
+
+    /// The rings of corner films, if they differ in their connection.
+    pub(crate) fn rings(&self) -> Option<&Rings> {
+        self.rings.as_deref()
+    }
+
+    /// Whether the films of a ring follow the applied pressure: connected to the reservoir of the wetting phase.
+    pub(crate) fn is_fed(&self, ring: u32) -> bool {
+        self.connection.is_fed(self.mesh.elements.len(), ring as usize)
     }
 
     /// Whether the invading phase, connected to the inlet, has reached an outlet.

@@ -64,6 +64,10 @@ impl Displacement {
     fn tie(&mut self) -> Option<()> {
         // Rounding error relative to the curvature, or to that of a half circle in the gate.
         const ROUNDING: f64 = 1e-9;
+        if let Some(next) = self.queue.peek().map(|next| next.curvature) {
+            let mesh = self.mesh.clone();
+            self.part_below(&mesh, next.min(self.conditions.largest_curvature));
+        }
         let is_allowed = |next: &&Candidate| next.curvature <= self.conditions.largest_curvature;
         let &Candidate { curvature: lowest, gate, .. } = self.queue.peek().filter(is_allowed)?;
         let (part, slot) = self.mesh.gates[gate].crossings[0];

@@ -5,24 +5,112 @@
 //!
 //! Left out: contact between the menisci on both sides of a closed throat.
 
+use std::sync::Arc;
+
 use super::conditions::CornerFilms;
 use super::event::{Candidate, EventKind};
 use super::mesh::Mesh;
 use super::progress::{Displacement, Front};
-use super::trapping::Held;
+use super::rings::Rings;
 use meniscus_core::math::Vec2;
 
 impl Displacement {
     /// Queues snap-off at the curvature in 1/m at which films meet, for all throats that are gates.
     pub(super) fn queue_snap_off(&mut self, mesh: &Mesh) {
-        let CornerFilms::Join { meeting } = &self.conditions.films else { return };
-        for (gate, throat) in mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
-            let curvature = meeting[throat];
-            if curvature.is_finite() && self.can_close(mesh, gate) {
-                let kind = EventKind::SnapOff;
-                self.queue.push(Candidate { curvature, kind, gate, to: 0, partner: None, is_joined: false });
+        if self.rings.is_some() {
+            return self.queue_snap_off_of_fed(mesh);
+        }
+        (0..mesh.gates.len()).for_each(|gate| self.queue_closing(mesh, gate));
+    }
+
+    /// The same for throats at rings that have just been connected to the inlet.
+    pub(super) fn queue_snap_off_of_fed(&mut self, mesh: &Mesh) {
+        let fed = std::mem::take(&mut self.connection.newly_fed);
+        let Some(rings) = self.rings.clone() else { return };
+        fed.iter().flat_map(|&ring| &rings.gates[ring]).for_each(|&gate| self.queue_closing(mesh, gate));
+    }
+
+    fn queue_closing(&mut self, mesh: &Mesh, gate: usize) {
+        let (CornerFilms::Join(films), Some(throat)) = (&self.conditions.films, mesh.gates[gate].throat) else {
+            return;
+        };
+        let curvature = films.meeting[throat];
+        if curvature.is_finite() && self.can_close(mesh, gate) {
+            let kind = EventKind::SnapOff;
+            self.queue.push(Candidate { curvature, kind, gate, to: 0, partner: None, is_joined: false });
+        }
+    }
+
+    /// The rings of films that are not all joined.
+    pub(super) fn rings_of(mesh: &Mesh, films: &CornerFilms) -> Option<Arc<Rings>> {
+        let (CornerFilms::Drain(paths) | CornerFilms::Join(paths)) = films else { return None };
+        paths.rings.as_ref().map(|has_films| Arc::new(Rings::of(mesh, has_films)))
+    }
+
+    /// By gate, whether it joins the films on both sides of it: closed, or, where the wetting phase drains, with films that meet at first. Of the latter the
+    /// curvature at which they part, the lowest last.
+    pub(super) fn bridges(
+        mesh: &Mesh,
+        rings: Option<&Rings>,
+        films: &CornerFilms,
+        invaded: &[bool],
+        closed: &[bool],
+    ) -> (Vec<bool>, Vec<(f64, usize)>) {
+        let Some(rings) = rings else { return Default::default() };
+        let joins = |gate: usize| rings.joined_by(gate).is_some();
+        let mut partings: Vec<(f64, usize)> = match films {
+            CornerFilms::Drain(paths) => (mesh.gates.iter().enumerate())
+                .filter_map(|(gate, it)| Some((paths.meeting[it.throat?], gate)))
+                .filter(|&(curvature, gate)| curvature.is_finite() && joins(gate))
+                .collect(),
+            _ => Vec::new(),
+        };
+        partings.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
+        let mut bridged: Vec<bool> = (0..mesh.gates.len()).map(|gate| closed[gate] && joins(gate)).collect();
+        for &(_, gate) in &partings {
+            bridged[gate] |= [0, 1].iter().all(|&end| invaded[mesh.element(gate, end)]);
+        }
+        (bridged, partings)
+    }
+
+    /// Updates the bridges of the gates of an element that has just been filled.
+    pub(super) fn bridge_beside(&mut self, mesh: &Mesh, element: usize) {
+        let Some(rings) = self.rings.clone() else { return };
+        for &(gate, end) in &mesh.elements[element].gates {
+            let meets = match (&self.conditions.films, mesh.gates[gate].throat) {
+                (CornerFilms::Drain(paths), Some(throat)) => self.applied <= paths.meeting[throat],
+                _ => false,
+            };
+            let is_between = self.invaded[mesh.element(gate, 1 - end)];
+            self.bridged[gate] = meets && is_between && rings.joined_by(gate).is_some();
+        }
+    }
+
+    /// Films part in the throats in which they meet at lower curvatures in 1/m only; what this cuts off is trapped there.
+    pub(super) fn part_below(&mut self, mesh: &Mesh, curvature: f64) {
+        while let Some((parting, gate)) = self.partings.pop_if(|(parting, _)| *parting < curvature) {
+            if self.bridged[gate] && !self.closed[gate] {
+                self.applied = self.applied.max(parting);
+                self.part(mesh, gate);
             }
         }
+    }
+
+    /// Parts the films on both sides of a gate.
+    pub(super) fn part(&mut self, mesh: &Mesh, gate: usize) {
+        let Some(rings) = self.rings.as_ref().and_then(|rings| rings.joined_by(gate)) else { return };
+        if std::mem::replace(&mut self.bridged[gate], false) {
+            let (held, connection) = self.held(mesh);
+            let lost = connection.part(held, rings);
+            self.leave(mesh, lost);
+        }
+    }
+
+    /// Whether the films at a gate follow the pressure, so that they can meet.
+    fn is_fed_at(&self, mesh: &Mesh, gate: usize) -> bool {
+        let Some(rings) = &self.rings else { return true };
+        let mut at = rings.of_gate[gate].into_iter().flatten().peekable();
+        at.peek().is_some() && at.all(|ring| self.connection.is_fed(mesh.elements.len(), ring as usize))
     }
 
     /// Whether a gate can snap off: defending non-wetting phase on both sides, connected to an outlet.
@@ -31,12 +119,12 @@ impl Displacement {
             let element = mesh.element(gate, end);
             !self.invaded[element] && !self.connection.trapped[element]
         };
-        !self.closed[gate] && is_open(0) && is_open(1)
+        !self.closed[gate] && is_open(0) && is_open(1) && self.is_fed_at(mesh, gate)
     }
 
     /// Removes from closed gates those without non-wetting phase on both sides.
     pub(super) fn closed_within(mesh: &Mesh, closed: &mut [bool], invaded: &[bool], films: &CornerFilms) {
-        let invades = *films == CornerFilms::Drain;
+        let invades = matches!(films, CornerFilms::Drain(_));
         for (gate, closed) in closed.iter_mut().enumerate() {
             *closed &= [0, 1].iter().all(|&end| invaded[mesh.element(gate, end)] == invades);
         }
@@ -45,6 +133,9 @@ impl Displacement {
     /// Closes a gate in which films meet.
     pub(super) fn close(&mut self, gate: usize) {
         self.closed[gate] = true;
+        if let Some(rings) = &self.rings {
+            self.bridged[gate] = rings.joined_by(gate).is_some();
+        }
         self.closing.push(gate);
     }
 
@@ -78,9 +169,9 @@ impl Displacement {
     /// Trapping after gates were closed.
     pub(super) fn lose_through(&mut self, mesh: &Mesh, gates: &[usize]) {
         for &gate in gates {
-            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
             let between = [0, 1].map(|end| mesh.element(gate, end));
-            let lost = self.connection.close(held, between);
+            let (held, connection) = self.held(mesh);
+            let lost = connection.close(held, between);
             self.leave(mesh, lost);
         }
     }

@@ -1,60 +1,77 @@
 //! Connectivity of both phases, by the rules of trapping, which are implemented only here.
 
 use super::conditions::{Conditions, CornerFilms};
-use super::mesh::Mesh;
+use super::connected::Held;
 use super::outflow::Outflow;
 use meniscus_case::network::Trapping;
 
 /// Connectivity of both phases by the trapping rule.
 #[derive(Debug, Clone)]
 pub(super) struct Connection {
-    /// Invading elements connected to the inlet.
+    /// Invading elements connected to the inlet, then rings of the invading phase that are.
     joined: Vec<bool>,
     /// Paths of the defending phase to the outlets; `None` if nothing is trapped.
     paths: Option<Outflow>,
     /// Trapped elements of the defending phase.
     pub(super) trapped: Vec<bool>,
-}
-
-/// Phases of elements, and gates closed to the non-wetting phase.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Held<'a> {
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) invaded: &'a [bool],
-    pub(crate) closed: &'a [bool],
+    /// Whether the wetting phase defends.
+    drains: bool,
+    /// Rings that were connected to the inlet since this was last emptied.
+    pub(super) newly_fed: Vec<usize>,
 }
 
 impl Connection {
-    /// Initial connectivity, with the elements from which menisci first advance. Without an open outlet nothing is trapped. Corner films connect
+    /// Initial connectivity, with the elements from which menisci first advance. Without an open outlet nothing is trapped. Joined corner films connect
     /// the wetting phase everywhere.
     pub(super) fn begin(conditions: &Conditions, held: Held, opens: [&[bool]; 2]) -> (Self, Vec<usize>) {
-        let Held { mesh, invaded, closed } = held;
+        let Held { invaded, .. } = held;
         let (count, [inlets, outlets]) = (invaded.len(), opens);
         let is_free = conditions.trapping == Trapping::None;
-        let paths = if is_free || conditions.films == CornerFilms::Drain || !outlets.contains(&true) {
+        let (drains, joined_films) = match &conditions.films {
+            CornerFilms::Absent => (false, false),
+            CornerFilms::Drain(paths) => (true, paths.rings.is_none()),
+            CornerFilms::Join(paths) => (false, paths.rings.is_none()),
+        };
+        let paths = if is_free || (drains && joined_films) || !outlets.contains(&true) {
             None
         } else {
             let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
-            Some(Outflow::new(mesh, closed, &defends, outlets))
+            let mut is_outlet = outlets.to_vec();
+            is_outlet.extend(
+                held.rings.filter(|_| drains).map_or_else(Vec::new, |(rings, _)| rings.reach(conditions.outlet)),
+            );
+            Some(Outflow::new(held.graph(drains, !drains), &defends, &is_outlet))
         };
         let trapped = (0..count).map(|e| !invaded[e] && paths.as_ref().is_some_and(|it| !it.is_open(e))).collect();
-        if is_free || matches!(conditions.films, CornerFilms::Join { .. }) {
+        let mut begun = Self { joined: Vec::new(), trapped, paths, drains, newly_fed: Vec::new() };
+        if is_free || (joined_films && !drains) {
             let all = (0..count).filter(|&element| invaded[element]).collect();
-            return (Self { joined: invaded.to_vec(), paths, trapped }, all);
+            begun.joined = invaded.to_vec();
+            begun.joined.resize(held.graph(!drains, !drains).nodes(), true);
+            begun.newly_fed = (0..begun.joined.len() - count).collect();
+            return (begun, all);
         }
-        let mut begun = Self { joined: vec![false; count], trapped, paths };
-        let first = (0..count).filter(|&e| inlets[e]).flat_map(|e| begun.join(held, e)).collect();
+        begun.joined = vec![false; held.graph(!drains, !drains).nodes()];
+        let reached = held.rings.filter(|_| !drains).map_or_else(Vec::new, |(rings, _)| rings.reach(conditions.inlet));
+        let inlets = inlets.iter().chain(&reached).enumerate().filter(|(_, is_inlet)| **is_inlet);
+        let first = inlets.flat_map(|(node, _)| begun.join(held, node)).collect();
         (begun, first)
     }
 
-    /// Connects an invading element to the inlet, and returns it with all elements connected through it.
-    pub(super) fn join(&mut self, held: Held, element: usize) -> Vec<usize> {
-        let (mut open, mut found) = (vec![element], Vec::new());
-        while let Some(element) = open.pop() {
-            if !std::mem::replace(&mut self.joined[element], true) {
-                let beside = held.mesh.neighbors(held.closed, element);
-                open.extend(beside.filter(|&other| held.invaded[other] && !self.joined[other]));
-                found.push(element);
+    /// Connects an invading element, or a ring, to the inlet, and returns it with all elements connected through it.
+    pub(super) fn join(&mut self, held: Held, from: usize) -> Vec<usize> {
+        let (mut open, mut found) = (vec![from], Vec::new());
+        let (graph, elements) = (held.graph(!self.drains, !self.drains), held.invaded.len());
+        while let Some(node) = open.pop() {
+            if !std::mem::replace(&mut self.joined[node], true) {
+                let is_reached =
+                    |&other: &usize| held.invaded.get(other).is_none_or(|invaded| *invaded) && !self.joined[other];
+                open.extend(graph.neighbors(node).filter(is_reached));
+                if node < elements {
+                    found.push(node);
+                } else {
+                    self.newly_fed.push(node - elements);
+                }
             }
         }
         found
@@ -65,20 +82,37 @@ impl Connection {
         self.joined[element]
     }
 
+    /// Whether the films of a ring are connected to the reservoir of the wetting phase, that of the outlet or of the inlet.
+    pub(super) fn is_fed(&self, elements: usize, ring: usize) -> bool {
+        if self.drains {
+            self.paths.as_ref().is_none_or(|paths| paths.is_open(elements + ring))
+        } else {
+            self.joined.get(elements + ring).is_none_or(|joined| *joined)
+        }
+    }
+
     /// Removes an element from the defending phase, and returns those that this traps.
     pub(super) fn remove(&mut self, held: Held, element: usize) -> Vec<usize> {
-        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.remove(held.mesh, held.closed, element));
+        let graph = held.graph(self.drains, !self.drains);
+        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.remove(graph, element));
         self.trap(held, lost)
     }
 
     /// Closes the gate between two elements to the defending phase, and returns those that this traps.
     pub(super) fn close(&mut self, held: Held, between: [usize; 2]) -> Vec<usize> {
-        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.close(held.mesh, held.closed, between));
+        let graph = held.graph(self.drains, !self.drains);
+        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.close(graph, between));
         self.trap(held, lost)
     }
 
+    /// Parts two rings that a gate joined, and returns the elements that this traps.
+    pub(super) fn part(&mut self, held: Held, rings: [usize; 2]) -> Vec<usize> {
+        let elements = held.invaded.len();
+        self.close(held, rings.map(|ring| elements + ring))
+    }
+
     fn trap(&mut self, held: Held, mut lost: Vec<usize>) -> Vec<usize> {
-        lost.retain(|&lost| !held.invaded[lost]);
+        lost.retain(|&lost| held.invaded.get(lost).is_some_and(|invaded| !invaded));
         lost.iter().for_each(|&lost| self.trapped[lost] = true);
         lost
     }

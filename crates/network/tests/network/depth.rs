@@ -100,10 +100,10 @@ fn a_depth_moves_all_pressures_by_one_constant_and_changes_no_order() {
 
 #[test]
 fn with_films_in_corners_the_order_stays_and_pressures_are_those_of_ducts() {
-    let set = ["network.wetting={young={contact-angle-deg=20.0}}", "expect=[]"];
+    let set = ["network.wetting={young={contact-angle-deg=20.0}}", "network.films=\"none\"", "expect=[]"];
     let plane = events(&loaded(&named("drainage"), &set));
-    let deep = events(&loaded(&named("drainage"), &[set[0], set[1], "geometry.depth=1.0"]));
-    let chip = events(&loaded(&named("drainage"), &[set[0], set[1], "geometry.depth=50e-6"]));
+    let deep = events(&loaded(&named("drainage"), &[&set[..], &["geometry.depth=1.0"]].concat()));
+    let chip = events(&loaded(&named("drainage"), &[&set[..], &["geometry.depth=50e-6"]].concat()));
     assert!(plane.len() > 20 && plane.len() == chip.len());
     let constant = 2.0 * 0.0728 * f64::to_radians(20.0).cos() / 50e-6;
     for ((plane, deep), chip) in plane.iter().zip(&deep).zip(&chip) {

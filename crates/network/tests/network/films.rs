@@ -26,7 +26,7 @@ impl Case {
     fn new(size: [f64; 2], shapes: &str, depth: f64, deg: f64) -> Self {
         let text = format!(
             "format = 1\ntitle = \"Chambers and ducts\"\n[geometry]\nmin = [0.0, 0.0]\nmax = {size:?}\ndepth = {depth}\nshapes = [{shapes}]\n[network]\ninlet = \"left\"\noutlet = \"right\"\n\
-             films = true\n[network.interface]\ntension = {TENSION}\n[network.wetting.young]\ncontact-angle-deg = {deg:?}\n"
+             films = \"joined\"\n[network.interface]\ntension = {TENSION}\n[network.wetting.young]\ncontact-angle-deg = {deg:?}\n"
         );
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("case.toml");
@@ -140,7 +140,7 @@ fn a_throat_snaps_off_where_its_films_meet_and_what_is_behind_is_trapped() {
         assert!((measures["trapped-saturation"] / share - 1.0).abs() < 1e-9, "{measures:?} {share}");
         assert!((measures["residual-saturation"] / share - 1.0).abs() < 1e-9);
         // Without films, water pushes all of it out.
-        let plain = case.measures(&[set[0], set[1], set[2], "network.films=false"]);
+        let plain = case.measures(&[set[0], set[1], set[2], "network.films=\"none\""]);
         assert_eq!(plain["residual-saturation"], 0.0);
     }
 }
@@ -167,7 +167,7 @@ fn nothing_is_trapped_in_a_drainage_with_films() {
         let set = [angle, "geometry.depth=50e-6", films, "expect=[]"];
         measures(to_the_end(&loaded(&named("drainage"), &set)).as_ref())
     };
-    let (with, without) = (of("network.films=true"), of("network.films=false"));
+    let (with, without) = (of("network.films=\"joined\""), of("network.films=\"none\""));
     assert!(without["trapped-saturation"] > 0.05 && with["trapped-saturation"] == 0.0);
     assert!((with["final-wetting-saturation"] / with["film-saturation"] - 1.0).abs() < 1e-9);
     assert!(with["breakthrough-pressure-Pa"] == without["breakthrough-pressure-Pa"]);
@@ -179,7 +179,7 @@ fn the_curve_falls_on_in_drainage_after_the_last_event_and_rises_in_imbibition()
     let set = [
         "network.wetting={young={contact-angle-deg=20.0}}",
         "geometry.depth=50e-6",
-        "network.films=true",
+        "network.films=\"joined\"",
         "network.process=\"cycle\"",
         "network.stop={capillary-pressure=5e4}",
         "expect=[]",
@@ -208,7 +208,7 @@ fn the_curve_falls_on_in_drainage_after_the_last_event_and_rises_in_imbibition()
 #[test]
 fn films_vanish_towards_45_degrees_and_in_a_deep_chip() {
     let film = |set: &[&str]| {
-        let fixed = ["network.films=true", "network.stop={capillary-pressure=5e4}", "expect=[]"];
+        let fixed = ["network.films=\"joined\"", "network.stop={capillary-pressure=5e4}", "expect=[]"];
         let set: Vec<&str> = set.iter().copied().chain(fixed).collect();
         measures(to_the_end(&loaded(&named("drainage"), &set)).as_ref())["film-saturation"]
     };
@@ -221,16 +221,97 @@ fn films_vanish_towards_45_degrees_and_in_a_deep_chip() {
 }
 
 #[test]
-fn films_that_no_corner_holds_are_refused() {
-    let refused = |set: &[&str]| match load(&named("drainage"), &Overrides::parse(set).unwrap()) {
-        Ok(_) => panic!("{set:?}"),
-        Err(error) => error.render(),
+fn films_need_a_depth_and_corners_that_hold_them() {
+    let films = "network.films=\"rings\"";
+    let refused = load(&named("drainage"), &Overrides::parse(&[films]).unwrap()).unwrap_err().render();
+    assert!(refused.contains("add depth = 50e-6"), "{refused}");
+    // At 45 degrees no corner holds a film, and the displacement is that without; a lid that wets less leaves those on the floor.
+    let of = |set: &[&str]| {
+        measures(
+            to_the_end(&loaded(&named("drainage"), &[set, &["geometry.depth=50e-6", "expect=[]"]].concat())).as_ref(),
+        )
     };
-    let films = "network.films=true";
-    assert!(refused(&[films]).contains("add depth = 50e-6"));
+    let same = |one: &BTreeMap<String, f64>, other: &BTreeMap<String, f64>| format!("{one:?}") == format!("{other:?}");
     let steep = "network.wetting={young={contact-angle-deg=45.0}}";
-    assert!(refused(&[films, steep, "geometry.depth=50e-6"]).contains("sum to 90 or more"));
-    // A lid that wets less leaves those on the floor.
+    assert!(same(&of(&[steep, films]), &of(&[steep])));
+    assert!(!of(&[steep]).contains_key("film-saturation"));
     let lid = "network.wetting={young={contact-angle-deg=40.0}, patches=[{plate=\"lid\", contact-angle-deg=60.0}]}";
-    assert!(load(&named("drainage"), &Overrides::parse(&[films, lid, "geometry.depth=50e-6"]).unwrap()).is_ok());
+    // Rings are the default.
+    assert!(of(&[lid])["film-saturation"] > 0.0);
+    assert!(same(&of(&[lid, films]), &of(&[lid])));
+}
+
+/// Three posts around a pocket in a channel of 4 mm by 2 mm, with a stem of the last one to the floor if `is_joined`.
+fn three_posts(is_joined: bool, is_mirrored: bool) -> Case {
+    let mut shapes = String::new();
+    let y = |y: f64| if is_mirrored { 2e-3 - y } else { y };
+    for (x, center) in [(1.3e-3, 1.2e-3), (1.75e-3, 1.2e-3), (1.525e-3, 0.81e-3)] {
+        write!(shapes, "{{ disc = {{ center = [{x:e}, {:e}], radius = 2e-4 }} }},", y(center)).unwrap();
+    }
+    // Between the pocket and the outlet.
+    for center in [0.33e-3, 1e-3, 1.67e-3] {
+        write!(shapes, "{{ disc = {{ center = [2.7e-3, {:e}], radius = 1.8e-4 }} }},", y(center)).unwrap();
+    }
+    if is_joined {
+        write!(shapes, "{{ rectangle = {{ center = [1.525e-3, {:e}], size = [1e-4, 8e-4] }} }},", y(0.4e-3)).unwrap();
+    }
+    Case::new([4e-3, 2e-3], &shapes, 1e-4, 10.0)
+}
+
+#[test]
+fn the_pocket_between_posts_is_cut_off_unless_their_films_reach_a_wall() {
+    for is_mirrored in [false, true] {
+        let of = |is_joined: bool, films: &str| {
+            let case = three_posts(is_joined, is_mirrored);
+            case.measures(&[&format!("network.films={films:?}"), "network.stop.capillary-pressure=2e4"])
+        };
+        let pocket = of(false, "none")["trapped-saturation"];
+        assert!(pocket > 1e-3, "{pocket}");
+        for is_joined in [false, true] {
+            assert_eq!(of(is_joined, "joined")["trapped-saturation"], 0.0);
+            let none = of(is_joined, "none")["trapped-saturation"];
+            let rings = of(is_joined, "rings");
+            assert!((rings["trapped-saturation-without-films"] - none).abs() < 1e-12);
+            if is_joined {
+                // The pocket has left; the other two posts keep the films that they had.
+                let (left, films) = (rings["final-wetting-saturation"], rings["film-saturation"]);
+                assert!(
+                    none > 1e-3 && (left - films).abs() < 1e-12 && rings["trapped-saturation"] < films,
+                    "{rings:?}"
+                );
+            } else {
+                // With the pocket what is left of the films around the posts.
+                let kept = rings["trapped-saturation"] - none;
+                assert!(kept > 0.0 && kept < rings["film-saturation"] + 1e-12, "{none} {rings:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pocket_and_the_films_around_it_keep_the_pressure_at_which_they_were_cut_off() {
+    let case = three_posts(false, false);
+    let at = |pressure: f64| {
+        case.measures(&["network.films=\"rings\"", &format!("network.stop.capillary-pressure={pressure:e}")])
+    };
+    let events = table(&case.loaded(&[]), "events.csv");
+    let last = events.iter().filter_map(|row| row["capillary_pressure_Pa"].parse().ok()).fold(0.0, f64::max);
+    let (one, two) = (at(2.0 * last), at(4.0 * last));
+    // Posts hold on to theirs; films along floor and ceiling shrink with the square of the pressure.
+    assert!(
+        one["trapped-saturation"] > 0.0 && one["trapped-saturation"] == two["trapped-saturation"],
+        "{one:?} {two:?}"
+    );
+    let free = |found: &BTreeMap<String, f64>| found["final-wetting-saturation"] - found["trapped-saturation"];
+    assert!((free(&one) / free(&two) / 4.0 - 1.0).abs() < 1e-9, "{} {}", free(&one), free(&two));
+}
+
+#[test]
+fn water_that_returns_reaches_what_was_cut_off_when_it_touches_its_posts() {
+    let cycle = "network.process=\"cycle\"";
+    let of = |films: &str| three_posts(false, false).measures(&[cycle, &format!("network.films={films:?}")]);
+    for films in ["none", "rings", "joined"] {
+        let found = of(films);
+        assert!(found["final-wetting-saturation"] > 0.9, "{films}: {found:?}");
+    }
 }

@@ -8,7 +8,7 @@ use meniscus_core::math::Vec2;
 use meniscus_geometry::Geometry;
 use meniscus_geometry::spec::{Capsule, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use meniscus_network::conductance::resistances;
-use meniscus_network::displacement::{Conditions, CornerFilms, Displacement, Phase};
+use meniscus_network::displacement::{Conditions, CornerFilms, Displacement, FilmPaths, Phase};
 use meniscus_network::extract;
 use meniscus_network::graph::{Network, Pores};
 use rayon::prelude::*;
@@ -73,7 +73,7 @@ impl Scene {
             open[motion.side(side)] = true;
         }
         let mut network = extract(&geometry, open).map_err(|error| error.to_string())?;
-        // Half of the drawings have a depth; a third drain through corner films.
+        // Half of the drawings have a depth; a sixth drain through corner films that are joined, another one through those of rings.
         network.depth = self.grains.len().is_multiple_of(2).then(|| 0.1 * motion.scale * self.size[0]);
         let violations = violations(&geometry, &network);
         if !violations.is_empty() {
@@ -107,6 +107,9 @@ struct Outcome {
 
 impl Outcome {
     fn new(scene: &Scene, motion: &Motion, network: &Network) -> Self {
+        // Films part far below the bursts of their throats.
+        let meeting: Vec<f64> = network.throats.iter().map(|throat| 0.2 / throat.width).collect();
+        let paths = |rings: Option<Vec<bool>>| FilmPaths { meeting: meeting.clone(), rings };
         let conditions = |inlet: bool| {
             let on = |end: usize| {
                 let mut sides = [false; 4];
@@ -117,7 +120,11 @@ impl Outcome {
                 inlet: on(0),
                 outlet: on(1),
                 trapping: scene.trapping.into(),
-                films: if scene.grains.len().is_multiple_of(3) { CornerFilms::Drain } else { CornerFilms::Absent },
+                films: match scene.grains.len() % 6 {
+                    0 => CornerFilms::Drain(paths(None)),
+                    3 => CornerFilms::Drain(paths(Some(vec![true; scene.grains.len() + 4]))),
+                    _ => CornerFilms::Absent,
+                },
                 ..Conditions::new(vec![scene.angle_deg.to_radians(); scene.grains.len() + 4])
             }
         };
