@@ -68,6 +68,7 @@ def network(
     cycles: int | None = None,
     trapping: bool | None = None,
     films: str | None = None,
+    region: str | None = None,
     periodic: str | None = None,
     depth: float | None = None,
     persistence: float | None = None,
@@ -103,6 +104,7 @@ def network(
         cycles: number of cycles of ``process="cycle"``.
         trapping: whether a defending region without a path to the outlet is trapped (default yes).
         films: how films in the corners of a chip are connected: ``none``, ``rings`` (default where corners hold any) or ``joined``.
+        region: the region of saturations and relative permeabilities: ``pack`` (default where the drawing has a manifold) or ``domain``.
         periodic: periodic directions: ``x``, ``y`` or ``xy``.
         depth: distance between floor and lid in m; that of the file if None, and without one all results are per meter of depth.
         persistence: persistence ratio above which two maxima of the wall distance count as one pore, 0.5 to 1.
@@ -163,6 +165,7 @@ def network(
         "cycles": cycles,
         "trapping": trapping,
         "films": films,
+        "region": region,
         "periodic": axes[periodic],
         "depth": depth,
         "persistence": persistence,

@@ -14,7 +14,7 @@ use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
 use meniscus_case::SideName;
-use meniscus_case::network::{FilmModel, RawProcess};
+use meniscus_case::network::{FilmModel, RawProcess, RegionExtent};
 use meniscus_core::input::tables::Words;
 
 /// Exit codes, as in the help.
@@ -164,6 +164,9 @@ pub(crate) struct NetworkArguments {
     /// How films in the corners of a chip are connected (default rings, where angles of walls and plates sum to less than 90 degrees)
     #[arg(long, value_parser = word::<FilmModel>(), value_name = "MODEL")]
     pub(crate) films: Option<FilmModel>,
+    /// The region of saturations, porosity and relative permeabilities (default pack, where there is a manifold between inlet or outlet and the grains)
+    #[arg(long, value_parser = word::<RegionExtent>(), value_name = "REGION")]
+    pub(crate) region: Option<RegionExtent>,
     /// Makes opposite sides periodic
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,

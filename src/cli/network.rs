@@ -34,6 +34,7 @@ fn options(arguments: &NetworkArguments) -> NetworkOptions {
         cycles: arguments.cycles,
         trapping: arguments.trapping,
         films: arguments.films,
+        region: arguments.region,
         periodic: arguments.periodic.map(PeriodicAxes::along).unwrap_or_default(),
         depth: arguments.depth,
     }

@@ -331,7 +331,7 @@ pub fn offers_of_comparison() -> Vec<Offer> {
             // Largest capillary pressure until an element at the outlet is filled; in imbibition the smallest
             "network-breakthrough-pressure-Pa"
             "direct-breakthrough-pressure-Pa"
-            // Saturation of the wetting phase when an element at the outlet is filled
+            // Saturation of the invading phase when an element at the outlet is filled
             "network-saturation-at-breakthrough"
             "direct-saturation-at-breakthrough"
             // With `[network.dynamic]`: time at which the invading phase reaches the outlet

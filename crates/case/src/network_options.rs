@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::fluid::RawInterface;
-use super::network::{FilmModel, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
+use super::network::{FilmModel, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawRegion, RegionExtent};
 use super::side::SideName;
 use super::wetting::RawWetting;
 use meniscus_wetting::{Wetting, Young};
@@ -35,6 +35,8 @@ pub struct NetworkOptions {
     pub trapping: Option<bool>,
     /// How films in the corners of a chip are connected.
     pub films: Option<FilmModel>,
+    /// The region of saturations (default: the pack, where the drawing has manifolds).
+    pub region: Option<RegionExtent>,
     /// Whether the domain is periodic along x and along y.
     pub periodic: [bool; 2],
     /// Depth of the chip (distance between floor and lid) in m.
@@ -76,6 +78,7 @@ impl NetworkOptions {
             cycles: self.cycles,
             trapping: self.trapping,
             films: self.films,
+            region: self.region.map(|extent| RawRegion { extent: Some(extent), ..RawRegion::default() }),
             persistence: self.persistence,
             ..RawNetwork::default()
         }

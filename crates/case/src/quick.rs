@@ -1,7 +1,7 @@
 //! A case of a network without a case file: a geometry and the keys of `[network]`.
 
 use super::case_file::{Case, Model, RawCase, text};
-use super::network::{RawNetwork, network};
+use super::network::{RawNetwork, RawRegion, RegionExtent, network, pack_between_manifolds};
 use super::output::{RawEvery, RawOutput, RawVtk};
 use super::{depth, records, shapes};
 use meniscus_core::input::{Checker, Problem};
@@ -21,6 +21,15 @@ pub fn quick(
     let mut raw = raw.clone().in_range(&mut checker, "network");
     let mut found =
         network(&mut checker, &mut raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
+    if let Some(Model::Network(network)) = &mut found
+        && raw.region.is_none()
+        && network.displacement.is_some()
+        && !network.is_dynamic()
+    {
+        network.region = pack_between_manifolds(&network.sides, &geometry);
+        let extent = network.region.map(|_| RegionExtent::Pack);
+        raw.region = extent.map(|extent| RawRegion { extent: Some(extent), ..RawRegion::default() });
+    }
     depth::depth(&mut checker, depth, found.as_mut(), Some(&geometry), false);
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref().and_then(Model::sides));
     let mut raw = RawCase {

@@ -50,7 +50,12 @@ pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>
         None => None,
     };
     let solver = assemble(wanted, ground, network, initial).timed(ground.seconds);
-    if let Some(region) = wanted.region.filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted.sum > 0.0))) {
+    if let Some(region) = solver
+        .config()
+        .region
+        .and(wanted.region)
+        .filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted.sum > 0.0)))
+    {
         return Err(SetupError::EmptyRegion { min: region.min, max: region.max });
     }
     let found = &solver.config().geometry_hash;
@@ -131,9 +136,15 @@ fn assemble(
         region: wanted.region.map(Region::bounds),
         derived: if network.depth == ground.network.depth { Arc::clone(&ground.derived) } else { Arc::default() },
     };
-    let counted = |displacement: &Displacement| match config.region {
-        Some(region) => Counted::within(displacement, region, config.periods()),
-        None => Counted::everywhere(displacement),
+    let periods = config.periods();
+    let given = wanted.region.is_some_and(|region| !region.is_pack);
+    let region = &mut config.region;
+    let counted = |displacement: &Displacement| {
+        let within = region.map(|region| Counted::within(displacement, region, periods));
+        within.filter(|counted| given || counted.sum > 0.0).unwrap_or_else(|| {
+            *region = None;
+            Counted::everywhere(displacement)
+        })
     };
     let cycles = Cycles::new(&network, &pores, half_cycles, initial, division, counted);
     if let Some(region) = config.region {

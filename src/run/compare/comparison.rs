@@ -20,7 +20,7 @@ pub(crate) struct Side {
     pub breakthrough_time_s: Option<f64>,
     /// Largest capillary pressure of a drainage, or smallest one of an imbibition, until breakthrough, in Pa, if there is one.
     pub breakthrough_pressure_pa: Option<f64>,
-    /// Wetting saturation at breakthrough.
+    /// Saturation of the invading phase at breakthrough.
     pub saturation_at_breakthrough: Option<f64>,
     /// Permeability along x in m²; `None` if not measured.
     pub permeability_m2: Option<f64>,

@@ -55,7 +55,7 @@ pub(crate) fn track(
         Status::Failed => return Err(CompareError::Failed(report.error.unwrap_or_default())),
         Status::Done | Status::ExpectationFailed => {}
     }
-    let breakthrough = task.pair.is_in_time().then(|| breakthrough(&report, state.invading)).flatten();
+    let breakthrough = task.pair.is_in_time().then(|| breakthrough(&report)).flatten();
     let filled = vec![None; state.elements.len()];
     let mut track = Track { filled, breakthrough, totals: totals(report), ..Track::default() };
     for record in recorder.states.records {
@@ -69,11 +69,10 @@ pub(crate) fn track(
     Ok(track)
 }
 
-/// Time of breakthrough in s, and the wetting saturation then.
-fn breakthrough(report: &Report, invading: FluidPhase) -> Option<[f64; 2]> {
+/// Time of breakthrough in s, and the saturation of the invading phase then.
+fn breakthrough(report: &Report) -> Option<[f64; 2]> {
     let value = |name: &str| report.measures.get(name).and_then(|reading| reading.value);
-    let (time, saturation) = (value("breakthrough-time-s")?, value("saturation-at-breakthrough")?);
-    Some([time, invading.saturation(saturation)])
+    Some([value("breakthrough-time-s")?, value("saturation-at-breakthrough")?])
 }
 
 /// The case with `records` rows of its series: each is a compared state.

@@ -95,7 +95,7 @@ pub(crate) fn track_in_time(
             break;
         }
     }
-    let breakthrough = solver.breakthrough().map(|it| [it.time, solver.invading().saturation(it.saturation)]);
+    let breakthrough = solver.breakthrough().map(|it| [it.time, it.saturation]);
     Ok(Track { breakthrough, totals: totals(&solver), ..track })
 }
 

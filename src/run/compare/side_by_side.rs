@@ -117,7 +117,7 @@ fn side(track: &Track, outlet: &[usize], is_in_time: bool, invading: FluidPhase)
     Side {
         capillary_pressure_pa: pressures,
         breakthrough_pressure_pa: farthest,
-        saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
+        saturation_at_breakthrough: through.map(|record| invading.saturation(track.records[record].saturation)),
         ..common
     }
 }

@@ -26,7 +26,7 @@ pub(crate) struct Track {
     pub(crate) records: Vec<Record>,
     /// For each element, the record at which the invading phase first filled more than half of it.
     pub(crate) filled: Vec<Option<usize>>,
-    /// Of a displacement in time: time of breakthrough in s, and the wetting saturation then.
+    /// Of a displacement in time: time of breakthrough in s, and the saturation of the invading phase then.
     pub(crate) breakthrough: Option<[f64; 2]>,
     /// Its cost, permeability and warnings.
     pub(crate) totals: Side,

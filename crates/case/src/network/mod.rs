@@ -16,5 +16,6 @@ pub(super) use films::films;
 pub(super) use pore_network::network;
 pub use pore_network::{NetworkInterface, PoreNetwork};
 pub use region::Region;
-pub use table::{Events, FilmModel};
-pub use table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
+pub(super) use region::pack_between_manifolds;
+pub use table::{Events, FilmModel, RegionExtent};
+pub use table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawRegion};

@@ -90,7 +90,9 @@ pub(crate) fn network(
         None
     };
     let region = region(checker, raw, sides.as_ref(), geometry);
-    raw.region = region.map(|Region { min, max }| RawRegion { min: Some(min), max: Some(max), extent: None });
+    if let Some(Region { min, max, .. }) = region.filter(|region| !region.is_pack) {
+        raw.region = Some(RawRegion { min: Some(min), max: Some(max), extent: None });
+    }
     if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
         return None;
     }

@@ -14,6 +14,9 @@ pub struct Region {
     pub min: [f64; 2],
     /// Upper right corner in m.
     pub max: [f64; 2],
+    /// Whether it is that of the pack: the whole domain if this has no pore apart from manifolds.
+    #[serde(skip)]
+    pub is_pack: bool,
 }
 
 impl Region {
@@ -45,8 +48,10 @@ pub(super) fn region(
     }
     let geometry = geometry?;
     let domain = Bounds { min: geometry.min.into(), max: geometry.max.into() };
-    if given.extent == Some(RegionExtent::Pack) {
-        return pack(checker, geometry, domain, sides?);
+    match given.extent {
+        Some(RegionExtent::Pack) => return pack(checker, geometry, domain, sides?),
+        Some(RegionExtent::Domain) => return None,
+        None => {}
     }
     let min = checker.require("network.region.min", given.min, "min = [1.0e-3, 0.0] # m, or extent = \"pack\"")?;
     let max = checker.require("network.region.max", given.max, "max = [5.0e-3, 4.0e-3] # m")?;
@@ -67,7 +72,7 @@ pub(super) fn region(
         checker.refuse(KEY, message, extent);
         return None;
     }
-    Some(Region { min, max })
+    Some(Region { min, max, is_pack: false })
 }
 
 /// From the first to the last grain in the direction from inlet to outlet, across the whole domain; along both axes without an inlet.
@@ -89,5 +94,17 @@ fn pack(checker: &mut Checker, geometry: &GeometrySpec, domain: Bounds, sides: &
     let end = |of_grain: Vec2, of_domain: Vec2| {
         [0, 1].map(|axis| if inlet.is_none_or(|side| side / 2 == axis) { of_grain[axis] } else { of_domain[axis] })
     };
-    Some(Region { min: end(ends.min.sup(&domain.min), domain.min), max: end(ends.max.inf(&domain.max), domain.max) })
+    let (min, max) = (end(ends.min.sup(&domain.min), domain.min), end(ends.max.inf(&domain.max), domain.max));
+    Some(Region { min, max, is_pack: true })
 }
+
+/// The pack of a drawing with manifolds: pore space between the inlet and the first grain, or between the last one and the outlet.
+pub(crate) fn pack_between_manifolds(sides: &Sides, geometry: &GeometrySpec) -> Option<Region> {
+    let domain = Bounds { min: geometry.min.into(), max: geometry.max.into() };
+    let pack = pack(&mut Checker::default(), geometry, domain, sides)?;
+    let is_inside = Bounds::area(&pack.bounds()) < domain.area() * (1.0 - ROUNDING);
+    is_inside.then_some(pack)
+}
+
+/// Relative rounding error of the extent of a pack.
+const ROUNDING: f64 = 1e-9;

@@ -54,12 +54,12 @@ tables! {
 
     /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that crosses its boundary the part inside counts; pores
     /// open to the inlet or the outlet are manifold and have no saturation, so that the first saturation is that of the defending phase alone.
-    pub(crate) struct RawRegion {
+    pub struct RawRegion {
         /// Lower left corner in m.
         pub min: [f64; 2],
         /// Upper right corner in m.
         pub max: [f64; 2],
-        /// `pack`: from the first to the last grain between inlet and outlet, across the whole domain; instead of both corners.
+        /// `pack`: from the first to the last grain between inlet and outlet, across the whole domain; `domain`: all of it; instead of both corners.
         pub extent: RegionExtent,
     }
 
@@ -131,9 +131,11 @@ words! {
     }
 
     /// A region defined by the geometry.
-    pub(crate) enum RegionExtent {
+    pub enum RegionExtent {
         /// From the first to the last grain.
         Pack,
+        /// The whole domain.
+        Domain,
     }
 
     /// The events that move menisci.
