@@ -216,8 +216,8 @@ fn of_network() -> Vec<Offer> {
 fn of_quasi_static_network(network: &PoreNetwork) -> Vec<Offer> {
     offers! {
         "quasi-static displacement", !network.is_dynamic() =>
-            // Permeability of the throats between regions of the phase over that of all, at the end of the last half cycle; of the wetting phase in drainage
-            // 0 once the invading phase holds all openings of the inlet
+            // Permeability of the throats between regions of the phase, and of rings of films, over that of all throats, at the end of the last half cycle; of the
+            // wetting phase in drainage without films 0 once the invading phase holds all openings of the inlet
             "relative-permeability-wetting"
             "relative-permeability-non-wetting"
             // With `network.measured`: number of throats whose measured entry pressure replaces the formula in the first half cycle

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::cycles::FluidPhase;
+use super::film_flow::of_walls;
 use super::films::FilmTerms;
 use meniscus_case::network::NetworkInterface;
 use meniscus_case::{PatchedWall, SIDES, on_plates};
@@ -27,10 +28,11 @@ fn on_depth(invading: FluidPhase, interface: &NetworkInterface) -> (f64, [f64; 2
 pub(super) fn film_terms(invading: FluidPhase, depth: f64, interface: &NetworkInterface, walls: usize) -> FilmTerms {
     let plates = on_depth(invading, interface).1;
     let through_wetting = |defending: f64| if invading == FluidPhase::Wetting { PI - defending } else { defending };
-    let wall = |angle: f64| WallFilms::new(through_wetting(angle), plates);
+    let angles: Vec<f64> = angles(interface, walls, invading).into_iter().map(through_wetting).collect();
     FilmTerms {
         depth: depth_for(invading, depth, interface),
-        walls: angles(interface, walls, invading).into_iter().map(wall).collect(),
+        walls: angles.iter().map(|&angle| WallFilms::new(angle, plates)).collect(),
+        conductances: of_walls(depth, &angles, plates),
     }
 }
 

@@ -20,6 +20,8 @@ pub(crate) struct FilmTerms {
     pub(crate) depth: Depth,
     /// By wall.
     pub(crate) walls: Vec<WallFilms>,
+    /// Flow along the films of each wall at unit radius, over the depth, times viscosity over pressure gradient.
+    pub(crate) conductances: Vec<f64>,
 }
 
 impl FilmTerms {

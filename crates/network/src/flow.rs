@@ -5,10 +5,12 @@
 
 use super::cycles::{Cycles, FluidPhase};
 use super::displacement::Phase;
+use super::film_flow::FilmFlow;
 use super::laplacian::FlowError;
 use super::model::{Configuration, Model};
-use super::permeability::{Drive, Paths, permeability};
+use super::permeability::{Drive, Paths, with_films};
 use super::tables::numbers;
+use meniscus_case::network::FilmModel;
 use meniscus_core::table::Table;
 
 /// Number of states of a half cycle, including first and last, at which relative permeabilities are computed.
@@ -27,8 +29,8 @@ pub(crate) fn drive(config: &Configuration, axis: usize) -> Option<Drive> {
     }
 }
 
-/// Permeability in m² for a phase in the regions for which `holds` is true.
-fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowError> {
+/// Permeability in m² for a phase in the regions for which `holds` is true, and in these films.
+fn of_phase(model: &Model, drive: Drive, holds: &[bool], films: &FilmFlow) -> Result<f64, FlowError> {
     let config = &model.config;
     let is_open = |regions: [usize; 2]| regions.iter().all(|&region| holds[region]);
     let conductance: Vec<f64> = config
@@ -38,13 +40,15 @@ fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowErro
         .zip(model.conductances())
         .map(|(throat, &conductance)| if is_open(throat.regions) { conductance } else { 0.0 })
         .collect();
-    permeability(&config.network, Paths { conductance: &conductance, holds }, config.bounds, drive)
+    with_films(&config.network, Paths { conductance: &conductance, holds }, &films.0, config.bounds, drive)
 }
 
 /// Permeability of the whole pore space along an axis in m²; NaN if its sides are closed or the flow cannot be solved.
 pub(crate) fn along(model: &Model, axis: usize) -> f64 {
     let everywhere = || vec![true; model.config.network.regions.len()];
-    let find = || drive(&model.config, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
+    let find = || {
+        drive(&model.config, axis).and_then(|drive| of_phase(model, drive, &everywhere(), &FilmFlow::default()).ok())
+    };
     *model.config.derived.permeabilities[axis].get_or_init(|| find().unwrap_or(f64::NAN))
 }
 
@@ -89,13 +93,32 @@ pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
         let (wetting, saturation) = wetting_regions(config, cycles, displaced);
         let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
         let [wetting, other] = [wetting, other].map(|holds| with_manifolds(config, holds));
+        let films = film_flow(config, cycles, displaced, &wetting, drive);
         // The flow of a phase that does not percolate is rounding error.
         const ROUNDING: f64 = 1.0e-12;
-        let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;
-        let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
+        let ratio =
+            |(holds, films): (Vec<bool>, &FilmFlow)| of_phase(model, drive, &holds, films).unwrap_or(f64::NAN) / whole;
+        let none = FilmFlow::default();
+        let [wetting, other] =
+            [(wetting, &films), (other, &none)].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
         [saturation, wetting, other]
     };
     states.iter().map(at).map(state).collect()
+}
+
+/// The films at the pressure after the invasions of the last half cycle up to this displaced share; none before the first one.
+fn film_flow(config: &Configuration, cycles: &Cycles, displaced: f64, holds: &[bool], drive: Drive) -> FilmFlow {
+    let half = cycles.half_cycle();
+    let Some(terms) = half.films.as_ref().filter(|_| half.film_model == FilmModel::Rings) else {
+        return FilmFlow::default();
+    };
+    let invasions = cycles.record.invasions.iter().flatten().filter(|invasion| invasion.displaced <= displaced);
+    let farther = if half.invading == FluidPhase::Wetting { f64::min } else { f64::max };
+    let applied = invasions.map(|invasion| invasion.applied).filter(|applied| applied.is_finite()).reduce(farther);
+    applied.map_or_else(FilmFlow::default, |applied| {
+        let curvature = config.curvature(half.invading, applied);
+        FilmFlow::new(&config.network, holds, terms, curvature, (config.bounds, drive))
+    })
 }
 
 /// With `network.region`, both phases pass the manifolds, which do not count in the saturation.
@@ -117,7 +140,7 @@ pub(crate) fn table(model: &Model) -> Option<Table> {
         columns: vec![
             // Wetting saturation; with [`network.region`](../network/theory.md#a-region) that of the region
             numbers("saturation", column(0)),
-            // Permeability of the throats between regions of the wetting phase over that of all
+            // Permeability of the throats between regions of the wetting phase, and of rings of films, over that of all throats
             numbers("relative_permeability_wetting", column(1)),
             // Permeability of the throats between regions of the non-wetting phase over that of all
             numbers("relative_permeability_non_wetting", column(2)),

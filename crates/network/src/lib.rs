@@ -17,6 +17,7 @@ pub mod setup;
 pub mod solver;
 
 mod film_curve;
+mod film_flow;
 mod films;
 mod flow;
 mod half_cycle;

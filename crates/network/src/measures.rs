@@ -123,7 +123,7 @@ fn permeabilities(model: &Model) -> Vec<Measure> {
     };
     let mut found = vec![of_axis(0, x), of_axis(1, y)];
     if let [[_, wetting, other]] = relative(model, &[1.0])[..] {
-        let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
+        let method = "permeability of the throats between regions that the phase holds, and of rings of films, over that of all throats, at the end of the last half cycle";
         found.push(measure(of_wetting, wetting, "").by(method));
         found.push(measure(of_other, other, "").by(method));
     }

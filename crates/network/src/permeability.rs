@@ -27,14 +27,33 @@ pub struct Paths<'a> {
     pub holds: &'a [bool],
 }
 
+/// Conductors beside the throats, such as corner films; their nodes follow those of the regions.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Beside {
+    /// Number of their nodes.
+    pub(crate) nodes: usize,
+    pub(crate) conductors: Vec<(Edge, Conductor)>,
+}
+
 /// Rounding error of the dissipation, over that of equal pressures in all regions: below it nothing flows.
 const ROUNDING: f64 = 1e-24;
 
 /// The permeability in m² of the domain of a network; 0 without a path through it.
 pub fn permeability(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Result<f64, FlowError> {
-    let (edges, conductors): (Vec<Edge>, Vec<Conductor>) =
-        conductors(network, paths, domain, drive).into_iter().unzip();
-    let flow = Laplacian::new(network.regions.len(), edges)?.solve(&conductors, &[])?;
+    with_films(network, paths, &Beside::default(), domain, drive)
+}
+
+/// The same of the wetting phase, which flows along films too.
+pub(crate) fn with_films(
+    network: &Network,
+    paths: Paths,
+    films: &Beside,
+    domain: Bounds,
+    drive: Drive,
+) -> Result<f64, FlowError> {
+    let all = conductors(network, paths, domain, drive).into_iter().chain(films.conductors.iter().copied());
+    let (edges, conductors): (Vec<Edge>, Vec<Conductor>) = all.unzip();
+    let flow = Laplacian::new(network.regions.len() + films.nodes, edges)?.solve(&conductors, &[])?;
     let dissipation: f64 = flow.through.iter().zip(&conductors).map(|(q, c)| q * q / c.conductance).sum();
     // The flow minimizes the dissipation among all pressures with this drive.
     let most: f64 = conductors.iter().map(|c| c.conductance * c.jump * c.jump).sum();

@@ -12,6 +12,7 @@ pub(crate) mod circle;
 pub mod contact;
 pub mod contour;
 pub mod depth;
+pub mod film_flow;
 pub mod films;
 pub mod lattice;
 pub mod lengths;

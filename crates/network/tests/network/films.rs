@@ -9,7 +9,8 @@ use meniscus::run::execute::Mode;
 use meniscus::run::simulation::Unwatched;
 use meniscus_case::{Loaded, load};
 use meniscus_core::input::Overrides;
-use meniscus_geometry::interface::depth::corner_area;
+use meniscus_geometry::interface::depth::{corner_area, duct_factor};
+use meniscus_geometry::interface::film_flow::conductance;
 
 use crate::cases::{loaded, measures, named, run, to_the_end};
 
@@ -93,6 +94,22 @@ fn the_films_of_a_straight_duct_hold_four_corners() {
             assert!(passed == 1.0 || pressure < meeting && (passed - 0.5).abs() < 1e-9);
             assert!((found["largest-capillary-pressure-Pa"] / pressure - 1.0).abs() < 1e-9);
         }
+    }
+}
+
+/// [RansohoffRadke1988]
+#[test]
+fn the_films_of_a_drained_duct_conduct_as_four_corners() {
+    let (width, depth) = (1e-4, 5e-5);
+    let plates = "{ rectangle = { center = [5e-4, 8e-4], size = [2e-3, 5e-4] } }, { rectangle = { center = [5e-4, 2e-4], size = [2e-3, 5e-4] } }";
+    for deg in [0.0_f64, 20.0, 35.0] {
+        let case = Case::new([1e-3, 1e-3], plates, depth, deg);
+        let found = case.measures(&["network.films=\"rings\""]);
+        let (angle, radius) = (deg.to_radians(), TENSION / found["largest-capillary-pressure-Pa"]);
+        let films = 4.0 * conductance(angle, angle) * radius.powi(4);
+        let duct = width * depth.powi(3) / 12.0 * duct_factor(width / depth);
+        let ratio = found["relative-permeability-wetting"] / (films / duct);
+        assert!((ratio - 1.0).abs() < 1e-6, "{deg}: {ratio} {found:?}");
     }
 }
 
