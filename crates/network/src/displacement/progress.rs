@@ -109,7 +109,8 @@ impl Displacement {
     /// The same in a pore space already divided for these events.
     pub(crate) fn within(division: &Division, conditions: Conditions) -> Self {
         let Mesh { elements, gates, .. } = &*division.mesh;
-        Self::begun(division.clone(), conditions, vec![false; elements.len()], vec![false; gates.len()])
+        let (invaded, closed) = (vec![false; elements.len()], vec![false; gates.len()]);
+        Self::begun(division.clone(), conditions, invaded, closed, f64::INFINITY)
     }
 
     /// The other phase invades from the present state. Its elements without a connection to an inlet take no part until they are reached, or,
@@ -123,14 +124,16 @@ impl Displacement {
             self.connection.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
         let held = held.collect();
         let division = Division { mesh: self.mesh, elements: self.elements, centers: self.centers };
-        Self { held, ..Self::begun(division, conditions, invaded, self.closed) }
+        Self { held, ..Self::begun(division, conditions, invaded, self.closed, f64::INFINITY) }
     }
 
+    /// The start of a displacement; films that meet at `applied` (1/m), if this is finite, are joined.
     pub(super) fn begun(
         division: Division,
         conditions: Conditions,
         mut invaded: Vec<bool>,
         mut closed: Vec<bool>,
+        applied: f64,
     ) -> Self {
         let Division { mesh, elements, centers } = division;
         let count = mesh.elements.len();
@@ -141,7 +144,8 @@ impl Displacement {
         inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
         Self::closed_within(&mesh, &mut closed, &invaded, &conditions.films);
         let rings = Self::rings_of(&mesh, &conditions.films);
-        let (bridged, partings) = Self::bridges(&mesh, rings.as_deref(), &conditions.films, &invaded, &closed);
+        let (bridged, partings) =
+            Self::bridges(&mesh, rings.as_deref(), &conditions.films, (&invaded, &closed, applied));
         let films = rings.as_deref().map(|rings| (rings, &bridged[..]));
         let held = Held { mesh: &mesh, invaded: &invaded, closed: &closed, rings: films };
         let (connection, first) = Connection::begin(&conditions, held, [&inlets, &outlets]);

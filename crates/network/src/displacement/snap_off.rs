@@ -47,14 +47,13 @@ impl Displacement {
         paths.rings.as_ref().map(|has_films| Arc::new(Rings::of(mesh, has_films)))
     }
 
-    /// By gate, whether it joins the films on both sides of it: closed, or, where the wetting phase drains, with films that meet at first. Of the latter the
+    /// By gate, whether it joins the films on both sides of it: closed, or, where the wetting phase drains, with films that meet at the curvature `applied` in 1/m. Of the latter the
     /// curvature at which they part, the lowest last.
     pub(super) fn bridges(
         mesh: &Mesh,
         rings: Option<&Rings>,
         films: &CornerFilms,
-        invaded: &[bool],
-        closed: &[bool],
+        (invaded, closed, applied): (&[bool], &[bool], f64),
     ) -> (Vec<bool>, Vec<(f64, usize)>) {
         let Some(rings) = rings else { return Default::default() };
         let joins = |gate: usize| rings.joined_by(gate).is_some();
@@ -67,8 +66,8 @@ impl Displacement {
         };
         partings.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
         let mut bridged: Vec<bool> = (0..mesh.gates.len()).map(|gate| closed[gate] && joins(gate)).collect();
-        for &(_, gate) in &partings {
-            bridged[gate] |= [0, 1].iter().all(|&end| invaded[mesh.element(gate, end)]);
+        for &(curvature, gate) in &partings {
+            bridged[gate] |= applied <= curvature && [0, 1].iter().all(|&end| invaded[mesh.element(gate, end)]);
         }
         (bridged, partings)
     }

@@ -85,7 +85,8 @@ impl Displacement {
         }
         let is_closed = |gate: &Gate| gate.throat.is_some_and(|throat| beginning.closed.contains(&throat));
         let closed = division.mesh.gates.iter().map(is_closed).collect();
-        let mut begun = Self::begun(division, conditions, invaded, closed);
+        let applied = if beginning.applied.is_finite() { beginning.applied } else { f64::INFINITY };
+        let mut begun = Self::begun(division, conditions, invaded, closed, applied);
         (begun.applied, begun.held) = (beginning.applied, held);
         begun
     }
