@@ -220,7 +220,8 @@ impl Cycles {
     pub(crate) fn trapped_with(&self, network: &Network, pores: &Pores, films: FilmModel) -> Option<f64> {
         let half_cycles = self.half_cycles.iter().map(|half| half.with_films(films, network)).collect();
         let counted = |_: &Displacement| Counted::clone(&self.counted);
-        let mut other = Self::new(network, pores, half_cycles, self.initial.clone(), None, counted)?;
+        let division = self.displacement.division();
+        let mut other = Self::new(network, pores, half_cycles, self.initial.clone(), Some(&division), counted)?;
         while other.advance().is_some() {}
         Some(other.trapped_saturation())
     }

@@ -109,14 +109,8 @@ impl FilmFlow {
 
 /// The radius of films in a region in m, at most that at which they meet on its walls or, on average, on its plates.
 fn radius(region: &Region, terms: &FilmTerms, curvature: f64) -> f64 {
-    let (mut largest, mut along) = (f64::INFINITY, [0.0; 2]);
-    for piece in region.edges.iter().flat_map(|edge| if let Edge::Wall(pieces) = edge { &pieces[..] } else { &[] }) {
-        let films = &terms.walls[piece.shape as usize];
-        largest = largest.min(terms.depth.distance() / films.along_wall());
-        let of_piece = films.along_plates();
-        along = [0, 1].map(|plate| along[plate] + piece.curve.length() * of_piece[plate]);
-    }
-    let largest = along.into_iter().fold(largest, |largest, along| largest.min(region.area / along));
+    let pieces = region.edges.iter().flat_map(|edge| if let Edge::Wall(pieces) = edge { &pieces[..] } else { &[] });
+    let largest = terms.largest_radius(pieces, region.area);
     if curvature > 0.0 { (1.0 / curvature).min(largest) } else { largest }
 }
 

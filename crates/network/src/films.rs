@@ -35,6 +35,18 @@ impl FilmTerms {
         network.throats.iter().map(throat).collect()
     }
 
+    /// Largest radius in m of films along these walls around a pore space of an area in m²: they meet on a wall or, on average, on a plate.
+    pub(crate) fn largest_radius<'a>(&self, walls: impl Iterator<Item = &'a WallPiece>, area: f64) -> f64 {
+        let (mut largest, mut on_plates) = (f64::INFINITY, [0.0; 2]);
+        for piece in walls {
+            let (films, length) = (&self.walls[piece.shape as usize], piece.curve.length());
+            largest = largest.min(self.depth.distance() / films.along_wall());
+            let along = films.along_plates();
+            on_plates = [0, 1].map(|plate| on_plates[plate] + length * along[plate]);
+        }
+        on_plates.into_iter().fold(largest, |largest, along| largest.min(area / along))
+    }
+
     /// What the films connect.
     pub(crate) fn paths(&self, network: &Network, invading: FluidPhase, model: FilmModel) -> FilmPaths {
         let rings = (model == FilmModel::Rings).then(|| self.walls.iter().map(WallFilms::exist).collect());
@@ -75,7 +87,7 @@ struct ElementFilms {
 impl ElementFilms {
     fn new(displacement: &Displacement, element: usize, terms: &FilmTerms) -> Self {
         let area = displacement.elements()[element].area;
-        let (mut parts, mut largest, mut on_plates) = (Vec::new(), f64::INFINITY, [0.0; 2]);
+        let mut parts = Vec::new();
         for (k, piece) in displacement.wall_pieces(element).enumerate() {
             let (films, length) = (&terms.walls[piece.shape as usize], piece.curve.length());
             let ring = displacement.rings().and_then(|rings| rings.of_piece[element][k]);
@@ -84,12 +96,8 @@ impl ElementFilms {
                 parts.len() - 1
             });
             parts[index].unit += length * films.area() / terms.depth.distance();
-            largest = largest.min(terms.depth.distance() / films.along_wall());
-            let along = films.along_plates();
-            on_plates = [0, 1].map(|plate| on_plates[plate] + length * along[plate]);
         }
-        let largest = on_plates.into_iter().fold(largest, |largest, along| largest.min(area / along));
-        Self { parts, largest }
+        Self { parts, largest: terms.largest_radius(displacement.wall_pieces(element), area) }
     }
 
     fn radius(&self, curvature: f64) -> f64 {

@@ -20,14 +20,12 @@ pub(super) struct Graph<'a> {
     closed: &'a [bool],
     rings: Option<(&'a Rings, &'a [bool])>,
     invaded: &'a [bool],
-    /// Whether the invading phase wets.
-    wetting_invades: bool,
 }
 
 impl<'a> Graph<'a> {
-    /// Whether a path leads from a node to another one beside it: films meet the wetting phase only in elements that this fills.
+    /// Whether a path leads from a node to another one beside it: films of a defending phase meet it only in elements that it fills.
     pub(super) fn leads(self, from: usize, to: usize) -> bool {
-        from < self.invaded.len() || self.invaded.get(to).is_none_or(|&invaded| invaded == self.wetting_invades)
+        from < self.invaded.len() || self.invaded.get(to).is_none_or(|invaded| !invaded)
     }
 
     /// Number of its nodes.
@@ -54,8 +52,8 @@ impl<'a> Graph<'a> {
 
 impl<'a> Held<'a> {
     /// The graph of a phase; only the wetting phase has paths along rings.
-    pub(super) fn graph(self, of_wetting: bool, wetting_invades: bool) -> Graph<'a> {
+    pub(super) fn graph(self, of_wetting: bool) -> Graph<'a> {
         let Self { mesh, invaded, closed, rings } = self;
-        Graph { mesh, closed, rings: rings.filter(|_| of_wetting), invaded, wetting_invades }
+        Graph { mesh, closed, rings: rings.filter(|_| of_wetting), invaded }
     }
 }

@@ -251,6 +251,11 @@ impl Displacement {
         }
     }
 
+    /// The division of the pore space into elements.
+    pub(crate) fn division(&self) -> Division {
+        Division { mesh: self.mesh.clone(), elements: self.elements.clone(), centers: self.centers.clone() }
+    }
+
     /// The types of events.
     pub(crate) fn events(&self) -> Events {
         self.conditions.events

@@ -47,8 +47,8 @@ impl Displacement {
         paths.rings.as_ref().map(|has_films| Arc::new(Rings::of(mesh, has_films)))
     }
 
-    /// By gate, whether it joins the films on both sides of it: closed, or, where the wetting phase drains, with films that meet at the curvature `applied` in 1/m. Of the latter the
-    /// curvature at which they part, the lowest last.
+    /// By gate, whether it joins the films on both sides of it: closed, or, where the wetting phase drains, with films that meet at the curvature `applied` in
+    /// 1/m. Of the latter the curvature at which they part, the lowest last.
     pub(super) fn bridges(
         mesh: &Mesh,
         rings: Option<&Rings>,

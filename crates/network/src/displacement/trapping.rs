@@ -40,18 +40,18 @@ impl Connection {
             is_outlet.extend(
                 held.rings.filter(|_| drains).map_or_else(Vec::new, |(rings, _)| rings.reach(conditions.outlet)),
             );
-            Some(Outflow::new(held.graph(drains, !drains), &defends, &is_outlet))
+            Some(Outflow::new(held.graph(drains), &defends, &is_outlet))
         };
         let trapped = (0..count).map(|e| !invaded[e] && paths.as_ref().is_some_and(|it| !it.is_open(e))).collect();
         let mut begun = Self { joined: Vec::new(), trapped, paths, drains, newly_fed: Vec::new() };
         if is_free || (joined_films && !drains) {
             let all = (0..count).filter(|&element| invaded[element]).collect();
             begun.joined = invaded.to_vec();
-            begun.joined.resize(held.graph(!drains, !drains).nodes(), true);
+            begun.joined.resize(held.graph(!drains).nodes(), true);
             begun.newly_fed = (0..begun.joined.len() - count).collect();
             return (begun, all);
         }
-        begun.joined = vec![false; held.graph(!drains, !drains).nodes()];
+        begun.joined = vec![false; held.graph(!drains).nodes()];
         let reached = held.rings.filter(|_| !drains).map_or_else(Vec::new, |(rings, _)| rings.reach(conditions.inlet));
         let inlets = inlets.iter().chain(&reached).enumerate().filter(|(_, is_inlet)| **is_inlet);
         let first = inlets.flat_map(|(node, _)| begun.join(held, node)).collect();
@@ -61,7 +61,7 @@ impl Connection {
     /// Connects an invading element, or a ring, to the inlet, and returns it with all elements connected through it.
     pub(super) fn join(&mut self, held: Held, from: usize) -> Vec<usize> {
         let (mut open, mut found) = (vec![from], Vec::new());
-        let (graph, elements) = (held.graph(!self.drains, !self.drains), held.invaded.len());
+        let (graph, elements) = (held.graph(!self.drains), held.invaded.len());
         while let Some(node) = open.pop() {
             if !std::mem::replace(&mut self.joined[node], true) {
                 let is_reached =
@@ -93,14 +93,14 @@ impl Connection {
 
     /// Removes an element from the defending phase, and returns those that this traps.
     pub(super) fn remove(&mut self, held: Held, element: usize) -> Vec<usize> {
-        let graph = held.graph(self.drains, !self.drains);
+        let graph = held.graph(self.drains);
         let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.remove(graph, element));
         self.trap(held, lost)
     }
 
     /// Closes the gate between two elements to the defending phase, and returns those that this traps.
     pub(super) fn close(&mut self, held: Held, between: [usize; 2]) -> Vec<usize> {
-        let graph = held.graph(self.drains, !self.drains);
+        let graph = held.graph(self.drains);
         let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.close(graph, between));
         self.trap(held, lost)
     }
