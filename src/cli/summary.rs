@@ -2,6 +2,7 @@
 
 use super::output::{duration, readable, readable_within};
 use crate::run::execute::Finished;
+use crate::run::numbers::Number;
 use crate::run::report::{Reading, Report, Status, Verdict};
 use crate::run::steady::Steadiness;
 use meniscus_case::{Case, Model};
@@ -123,9 +124,17 @@ fn expectation(verdict: &Verdict) -> String {
 }
 
 fn numbers(report: &Report) -> Option<String> {
-    let numbers = report.numbers.iter().map(|number| format!("{} {}", number.symbol, readable(number.value)));
-    let (numbers, length) = (numbers.collect::<Vec<_>>().join("  "), report.length_of_numbers.name);
-    (!numbers.is_empty()).then(|| format!("  {numbers}  (L: {length}, U: fastest speed recorded)"))
+    let number = |number: &Number| {
+        let asked = number.asked.map_or(String::new(), |asked| format!(" (asked {})", readable(asked)));
+        format!("{} {}{asked}", number.symbol, readable(number.value))
+    };
+    let (numbers, length) =
+        (report.numbers.iter().map(number).collect::<Vec<_>>().join("  "), report.length_of_numbers.name);
+    let of = match report.case.model {
+        Model::Network(_) => String::new(),
+        Model::Sph(_) | Model::ThinFilm(_) => format!("  (L: {length}, U: fastest speed recorded)"),
+    };
+    (!numbers.is_empty()).then(|| format!("  {numbers}{of}"))
 }
 
 #[cfg(test)]

@@ -2,13 +2,15 @@
 //!
 //! With rho, mu of the wetting phase, sigma the tension, L the length that the case gives, else the shorter of the width of the narrowest throat and the square
 //! root of the area of a drop or bubble, else the shorter side of the domain, and U a speed: Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w
-//! - rho_n| g L²/sigma (rho_w alone in single-phase flow), La = sigma rho L/mu², Oh = La^(-1/2).
+//! - rho_n| g L²/sigma (rho_w alone in single-phase flow), La = sigma rho L/mu², Oh = La^(-1/2). A displacement has its viscosity ratio M and the capillary number of its inflow,
+//! in a network also a Bond number with the distance between pores.
 
 use serde::Serialize;
 
 use super::setup;
 use meniscus_case::film::{FilmDroplet, FilmEquation, Geometric, Precursor, Slip, ThinFilm};
-use meniscus_case::{Case, Drive, InitialVelocity, Model, Sph};
+use meniscus_case::network::{Drive as InTime, PoreNetwork, Process};
+use meniscus_case::{Case, Drive, InitialVelocity, Model, Side, Sph};
 use meniscus_core::math::Vec2;
 
 /// A dimensionless number.
@@ -16,8 +18,11 @@ use meniscus_core::math::Vec2;
 pub struct Number {
     /// Its usual symbol, such as `Re`.
     pub symbol: &'static str,
-    /// Its value.
+    /// Its value, in a report as reached.
     pub value: f64,
+    /// What the case asks for, if it prescribes it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asked: Option<f64>,
     /// Its formula.
     pub formula: &'static str,
 }
@@ -93,13 +98,13 @@ pub(crate) fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     let sph = match &case.model {
         Model::Sph(sph) => sph,
         Model::ThinFilm(film) => return of_thin_film(film, speed),
-        // Infinitely slow and without gravity: all numbers are zero.
+        // Those of its displacement: see below.
         Model::Network(_) => return Vec::new(),
     };
     let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.acting_tension());
     let length = length.value;
     let difference = (rho - sph.non_wetting.map_or(0.0, |fluid| fluid.density)).abs();
-    let number = |symbol, value, formula| Number { symbol, value, formula };
+    let number = |symbol, value, formula| Number { symbol, value, asked: None, formula };
     let mut all = vec![number("Re", rho * speed * length / mu, "rho U L / mu")];
     if sigma > 0.0 {
         let laplace = sigma * rho * length / (mu * mu);
@@ -114,6 +119,81 @@ pub(crate) fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     all
 }
 
+/// All numbers of a run: those of the case at the largest recorded speed, and those of its displacement as asked and as reached, by the values of its measures.
+pub(crate) fn reached(
+    case: &Case,
+    length: Length,
+    fastest: f64,
+    measured: impl Fn(&str) -> Option<f64>,
+) -> Vec<Number> {
+    let mut all = numbers(case, length, fastest);
+    match &case.model {
+        Model::Sph(sph) => all.extend(of_inflow(case, sph, measured("inflow-m2-per-s"))),
+        Model::Network(network) => all.extend(of_network(case, network, measured)),
+        Model::ThinFilm(_) => {}
+    }
+    all
+}
+
+/// The viscosity ratio of two phases, and the capillary number of what enters through a side.
+fn of_inflow(case: &Case, sph: &Sph, inflow: Option<f64>) -> Vec<Number> {
+    let Some(other) = sph.non_wetting.filter(|_| sph.acting_tension() > 0.0) else { return Vec::new() };
+    let mut all = vec![Number {
+        symbol: "M",
+        value: sph.wetting.viscosity / other.viscosity,
+        asked: None,
+        formula: "mu_w / mu_n",
+    }];
+    let given = sph.open.iter().enumerate().filter_map(|(number, open)| Some((number, (*open)?)));
+    let inlet = given.filter(|(_, open)| !matches!(open.drive, Drive::Pressure(_))).collect::<Vec<_>>();
+    if let ([(number, open)], Some(inflow)) = (&inlet[..], inflow) {
+        let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+        let (width, tension) = (size[1 - number / 2], sph.tension);
+        let viscosity = if open.enters_wetting == Some(false) { other.viscosity } else { sph.wetting.viscosity };
+        let asked = match open.drive {
+            Drive::Pressure(_) => None,
+            Drive::Velocity(speed, _) => Some(speed.abs()),
+            Drive::FlowRate(rate, _) => Some(rate.abs() / sph.thickness() / width),
+        };
+        all.push(Number {
+            symbol: "Ca_in",
+            value: viscosity * inflow / width / tension,
+            asked: asked.map(|speed| viscosity * speed / tension),
+            formula: "mu U / sigma of the entering phase, U the inflow over the width of its side",
+        });
+    }
+    all
+}
+
+/// Those of a displacement in a network: viscosity ratio, capillary and Bond number.
+fn of_network(case: &Case, network: &PoreNetwork, measured: impl Fn(&str) -> Option<f64>) -> Vec<Number> {
+    let Some((displacement, interface)) = network.displacement.as_ref().zip(network.interface.as_ref()) else {
+        return Vec::new();
+    };
+    let mut all = Vec::new();
+    if let (Some(wetting), Some(other)) = (network.wetting, network.non_wetting) {
+        let invading = [wetting, other][usize::from(displacement.process != Process::Imbibition)].viscosity;
+        let displaced = [other, wetting][usize::from(displacement.process != Process::Imbibition)].viscosity;
+        let formula = "viscosity of the invading phase / that of the displaced one";
+        all.push(Number { symbol: "M", value: invading / displaced, asked: None, formula });
+        let inlet = network.sides.each().iter().position(|&side| side == Side::Inlet);
+        if let (Some(dynamic), Some(inlet)) = (displacement.dynamic, inlet) {
+            let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+            let section = size[1 - inlet / 2] * case.depth.unwrap_or(1.0);
+            let asked = match dynamic.drive {
+                InTime::Rate(rate) => Some(invading * rate / (section * interface.tension)),
+                InTime::PressureDrop(_) => None,
+            };
+            let formula = "mu U / sigma of the invading phase, U the inflow over the inlet side";
+            all.push(Number { symbol: "Ca", value: measured("capillary-number").unwrap_or(f64::NAN), asked, formula });
+        }
+    }
+    let bond = measured("bond-number");
+    let formula = "|rho_n - rho_w| g L^2 / sigma, L the mean distance between pores";
+    all.extend(bond.map(|value| Number { symbol: "Bo", value, asked: None, formula }));
+    all
+}
+
 /// Contact line speed of the steepest droplet, without the logarithm of lengths, in m/s: an upper bound by an order of magnitude.
 fn spreading_speed(film: &ThinFilm) -> f64 {
     let slope = film.droplets.iter().map(|droplet| droplet.height / droplet.half_width).fold(0.0, f64::max);
@@ -122,7 +202,7 @@ fn spreading_speed(film: &ThinFilm) -> f64 {
 
 /// A thin film has no inertia; what matters is how slow, how flat and how well resolved it is. Droplets: the widest and highest.
 fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
-    let number = |symbol, value, formula| Number { symbol, value, formula };
+    let number = |symbol, value, formula| Number { symbol, value, asked: None, formula };
     let largest = |value: fn(&FilmDroplet) -> f64| film.droplets.iter().map(value).fold(0.0, f64::max);
     let (height, width) = (largest(|droplet| droplet.height), 2.0 * largest(|droplet| droplet.half_width));
     let mut all = vec![

@@ -133,7 +133,7 @@ pub struct Report {
     pub measures: BTreeMap<String, Reading>,
     /// Expectations of the case: `measure`, `value`, `tolerance`, `measured`, `pass` (`null` before the end)
     pub expectations: Vec<Verdict>,
-    /// Dimensionless numbers at the largest recorded speed: `symbol`, `value`, `formula`
+    /// Dimensionless numbers at the largest recorded speed, and of the inflow: `symbol`, `value`, `asked` where the case prescribes it, `formula`
     pub numbers: Vec<Number>,
     /// Characteristic length of the dimensionless numbers: `value` in m, `name`
     pub length_of_numbers: Length,

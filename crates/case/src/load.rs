@@ -134,6 +134,7 @@ pub fn load_from(origin: &Origin, overrides: &Overrides, kept: Option<&KeptGeome
     magnitudes(&mut checker, "sph", raw.sph.as_ref());
     magnitudes(&mut checker, "thin-film", raw.thin_film.as_ref());
     magnitudes(&mut checker, "network", raw.network.as_ref());
+    notes.append(&mut checker.notes);
     let mut mistakes = reading.refuse(checker.problems);
     mistakes.append(&mut elsewhere);
     let (Some(title), Some(geometry), Some(model), Some(end), true) =

@@ -33,7 +33,9 @@ pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -
             sph.measure.offers(),
         ],
         Model::ThinFilm(film) => vec![of_steady_run(is_steady), of_film(film)],
-        Model::Network(network) => vec![of_network(), of_quasi_static_network(network), of_network_in_time(network)],
+        Model::Network(network) => {
+            vec![of_network(network), of_quasi_static_network(network), of_network_in_time(network)]
+        }
     };
     all.into_iter().flatten().collect()
 }
@@ -181,7 +183,7 @@ fn of_permeability(sph: &Sph) -> Vec<Offer> {
 }
 
 /// Those of every pore network.
-fn of_network() -> Vec<Offer> {
+fn of_network(network: &PoreNetwork) -> Vec<Offer> {
     offers! {
         "a network", true =>
             // Closed-form pore area over the area of the domain
@@ -209,6 +211,10 @@ fn of_network() -> Vec<Offer> {
             "final-wetting-saturation"
             // Number of events of all kinds and half cycles
             "events";
+        "network.gravity", network.gravity.is_some() =>
+            // With `network.gravity`: difference of the densities times gravity in the plane and the square of the mean distance between neighboring pores, over
+            // the tension
+            "bond-number";
     }
 }
 
@@ -238,6 +244,11 @@ fn of_quasi_static_network(network: &PoreNetwork) -> Vec<Offer> {
             "largest-capillary-pressure-Pa"
             // Cycles: integral of the capillary pressure over the saturation that events displaced in the last drainage and imbibition
             "hysteresis-work-J-per-m3";
+        "quasi-static displacement and network.gravity", !network.is_dynamic() && network.gravity.is_some() =>
+            // With `network.gravity`: standard deviation along the flow of the menisci that can advance, at first breakthrough
+            "front-width-m"
+            // With `network.gravity`: share of the pore space in trapped ganglia that their own head would move, as it does not here
+            "movable-trapped-saturation";
     }
 }
 

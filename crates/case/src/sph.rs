@@ -1,6 +1,6 @@
 //! `[sph]`: direct simulation by incompressible SPH. Its table, the checks of its parts together, and the table of a checked simulation.
 
-use super::fluid::{Fluid, RawInterface, RawPhases, density_ratio, fluid};
+use super::fluid::{Fluid, RawInterface, RawPhases, density_ratio, fluid, tension};
 use super::initial::{self, Initial, RawInitial};
 use super::measure_groups::{MeasureSet, RawMeasures};
 use super::network::state::Start;
@@ -151,6 +151,12 @@ pub(super) fn sph(
         particle_count(checker, spacing, geometry);
     }
     let phases = raw.phases.get_or_insert_default();
+    if phases.non_wetting.is_some() {
+        let given = raw.interface.as_ref().and_then(|interface| interface.tension);
+        if let Some(tension) = tension(checker, "sph.interface", phases, given) {
+            raw.interface.get_or_insert_default().tension = Some(tension);
+        }
+    }
     let fluid_of_drop = phases.wetting.as_mut().map(|raw| fluid(checker, "sph.phases.wetting", raw));
     let liquid = checker.require("sph.phases.wetting", fluid_of_drop, PHASES);
     let other = phases.non_wetting.as_mut().map(|raw| fluid(checker, "sph.phases.non-wetting", raw));

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::cycles::FluidPhase;
 use super::film_flow::of_walls;
 use super::films::FilmTerms;
+use super::gravity::Gravity;
 use meniscus_case::network::NetworkInterface;
 use meniscus_case::{PatchedWall, SIDES, on_plates};
 use meniscus_geometry::interface::depth::Depth;
@@ -25,7 +26,12 @@ fn on_depth(invading: FluidPhase, interface: &NetworkInterface) -> (f64, [f64; 2
 }
 
 /// The films in the corners of all walls with floor and lid.
-pub(super) fn film_terms(invading: FluidPhase, depth: f64, interface: &NetworkInterface, walls: usize) -> FilmTerms {
+pub(super) fn film_terms(
+    invading: FluidPhase,
+    depth: f64,
+    interface: &NetworkInterface,
+    (walls, gravity): (usize, Option<Gravity>),
+) -> FilmTerms {
     let plates = on_depth(invading, interface).1;
     let through_wetting = |defending: f64| if invading == FluidPhase::Wetting { PI - defending } else { defending };
     let angles: Vec<f64> = angles(interface, walls, invading).into_iter().map(through_wetting).collect();
@@ -33,6 +39,7 @@ pub(super) fn film_terms(invading: FluidPhase, depth: f64, interface: &NetworkIn
         depth: depth_for(invading, depth, interface),
         walls: angles.iter().map(|&angle| WallFilms::new(angle, plates)).collect(),
         conductances: of_walls(depth, &angles, plates),
+        gravity,
     }
 }
 

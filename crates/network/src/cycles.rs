@@ -345,6 +345,14 @@ impl Cycles {
         (trapped + films) / self.counted.sum
     }
 
+    /// Saturation of trapped ganglia that their own head would move; `None` without gravity.
+    pub(crate) fn movable_saturation(&self) -> Option<f64> {
+        let half = self.half_cycle();
+        half.conditions.gravity?;
+        let movable = self.displacement.movable(&half.returning);
+        Some(self.counted.area_of(|element| movable[element]) / self.counted.sum)
+    }
+
     /// All events so far.
     pub fn history(&self) -> &[Entry] {
         &self.record.history

@@ -32,7 +32,7 @@ pub(crate) fn of_walls(depth: f64, angles: &[f64], plates: [f64; 2]) -> Vec<f64>
 pub(crate) struct FilmFlow(pub(crate) Beside);
 
 impl FilmFlow {
-    /// The films at (p_n - p_w)/σ = `curvature` (1/m) in all regions that the wetting phase does not hold.
+    /// The films at an applied (p_n - p_w)/σ of `curvature` (1/m) in all regions that the wetting phase does not hold.
     pub(crate) fn new(
         network: &Network,
         holds: &[bool],
@@ -108,9 +108,9 @@ impl FilmFlow {
 }
 
 /// The radius of films in a region in m, at most that at which they meet on its walls or, on average, on its plates.
-fn radius(region: &Region, terms: &FilmTerms, curvature: f64) -> f64 {
+fn radius(region: &Region, terms: &FilmTerms, applied: f64) -> f64 {
     let pieces = region.edges.iter().flat_map(|edge| if let Edge::Wall(pieces) = edge { &pieces[..] } else { &[] });
-    let largest = terms.largest_radius(pieces, region.area);
+    let (largest, curvature) = (terms.largest_radius(pieces, region.area), applied + terms.head(region.center));
     if curvature > 0.0 { (1.0 / curvature).min(largest) } else { largest }
 }
 

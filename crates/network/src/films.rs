@@ -6,6 +6,7 @@
 
 use super::displacement::{Beginning, Displacement, FilmPaths, Phase};
 use super::graph::{Network, Throat, WallPiece};
+use super::gravity::Gravity;
 use meniscus_case::FluidPhase;
 use meniscus_case::network::FilmModel;
 use meniscus_core::math::Vec2;
@@ -22,15 +23,27 @@ pub(crate) struct FilmTerms {
     pub(crate) walls: Vec<WallFilms>,
     /// Flow along the films of each wall at unit radius, over the depth, times viscosity over pressure gradient.
     pub(crate) conductances: Vec<f64>,
+    /// Gravity, by which the pressure of films changes with their height.
+    pub(crate) gravity: Option<Gravity>,
 }
 
 impl FilmTerms {
-    /// For each throat the curvature in the plane (1/m, positive if it bulges into the defending phase) at which its films meet; infinite without films.
+    /// (p_n - p_w)/σ at a point less than the applied one, in 1/m.
+    pub(crate) fn head(&self, at: Vec2) -> f64 {
+        self.gravity.map_or(0.0, |gravity| gravity.curvature(at))
+    }
+
+    /// For each throat the applied curvature in the plane (1/m, positive if it bulges into the defending phase) at which its films meet; infinite without
+    /// films.
     fn meeting(&self, network: &Network, invading: FluidPhase) -> Vec<f64> {
         let throat = |throat: &Throat| {
             let walls = throat.shapes.map(|shape| &self.walls[shape as usize]);
             let curvature = meeting(throat.width, self.depth.distance(), walls);
-            if curvature > 0.0 { invading.towards_wetting(self.depth.plane(curvature)) } else { f64::INFINITY }
+            if curvature > 0.0 {
+                invading.towards_wetting(self.depth.plane(curvature - self.head(throat.middle())))
+            } else {
+                f64::INFINITY
+            }
         };
         network.throats.iter().map(throat).collect()
     }
@@ -82,6 +95,8 @@ struct ElementFilms {
     parts: Vec<Part>,
     /// Largest radius in m.
     largest: f64,
+    /// (p_n - p_w)/σ in its center less than the applied one, in 1/m.
+    head: f64,
 }
 
 impl ElementFilms {
@@ -97,10 +112,16 @@ impl ElementFilms {
             });
             parts[index].unit += length * films.area() / terms.depth.distance();
         }
-        Self { parts, largest: terms.largest_radius(displacement.wall_pieces(element), area) }
+        Self {
+            parts,
+            largest: terms.largest_radius(displacement.wall_pieces(element), area),
+            head: terms.head(displacement.elements()[element].center()),
+        }
     }
 
-    fn radius(&self, curvature: f64) -> f64 {
+    /// Radius in m while (p_n - p_w)/σ is `applied`, in 1/m.
+    fn radius(&self, applied: f64) -> f64 {
+        let curvature = applied + self.head;
         if curvature > 0.0 { (1.0 / curvature).min(self.largest) } else { self.largest }
     }
 

@@ -19,6 +19,8 @@ pub struct HalfCycle {
     pub(crate) films: Option<FilmTerms>,
     /// Those that its corners can hold.
     pub(crate) corners: Option<FilmTerms>,
+    /// Contact angle of each wall through the invading phase in rad if the displaced phase returned.
+    pub(crate) returning: Vec<f64>,
     /// How they are connected.
     pub(crate) film_model: FilmModel,
 }

@@ -10,6 +10,7 @@ pub mod dynamic;
 pub mod ensemble;
 pub mod extract;
 pub mod graph;
+pub mod gravity;
 mod ground;
 pub(crate) mod laplacian;
 pub mod permeability;

@@ -1,6 +1,6 @@
 //! Point location in elements.
 
-use super::displacement::Element;
+use super::displacement::{Element, centroid};
 use meniscus_core::math::{Bounds, Vec2};
 
 /// A point within an outline: its centroid if inside, else the middle of the longest segment of a line across it.
@@ -24,18 +24,6 @@ pub(super) fn inner_point(outline: &[Vec2]) -> Vec2 {
 
 fn edges(outline: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
     (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
-}
-
-fn centroid(outline: &[Vec2]) -> Vec2 {
-    let Some(&origin) = outline.first() else { return Vec2::zeros() };
-    let (mut sum, mut area) = (Vec2::zeros(), 0.0);
-    for (a, b) in edges(outline) {
-        let (a, b) = (a - origin, b - origin);
-        let part = a.x * b.y - a.y * b.x;
-        sum += (a + b) * part;
-        area += part;
-    }
-    if area == 0.0 { origin } else { origin + sum / (3.0 * area) }
 }
 
 /// Whether a point lies within an outline, by the number of edges to its right.

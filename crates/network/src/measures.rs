@@ -5,7 +5,7 @@ use super::displacement::EventKind;
 use super::flow::{along, drive, relative};
 use super::model::{Configuration, Model};
 use super::permeability::Drive;
-use super::tables::kept;
+use super::tables::{kept, length};
 use super::warnings::notes_on_permeability;
 use meniscus_case::network::FilmModel;
 use meniscus_core::solver::{Measure, measure};
@@ -55,6 +55,7 @@ pub(crate) fn all(model: &Model, costly: Costly) -> Vec<Measure> {
     found.extend(replaced(model));
     if let Some(cycles) = &model.cycles {
         found.extend(of_displacement(config, cycles));
+        found.extend(front_width(config, cycles));
         if costly.other_films && cycles.is_done {
             found.extend(with_other_films(model));
         }
@@ -84,6 +85,7 @@ pub(crate) fn of_network(model: &Model, costly: Costly) -> Vec<Measure> {
     if costly.entry_pressures {
         found.extend(entry_pressures(model));
     }
+    found.extend(bond_number(&model.config));
     found
 }
 
@@ -148,6 +150,34 @@ fn entry_pressures(model: &Model) -> Vec<Measure> {
     ]
 }
 
+/// The ratio of gravity to capillarity over the distance between two pores.
+fn bond_number(config: &Configuration) -> Option<Measure> {
+    let gravity = config.gravity.as_ref()?;
+    let lengths = || kept(config).map(|throat| length(config, throat));
+    let mean = lengths().sum::<f64>() / lengths().count() as f64;
+    let acts = config.inlet.map_or("", |inlet| match gravity.stabilizes(inlet / 2, inlet.is_multiple_of(2)) {
+        Some(true) => "; it delays the first invasion the more the farther this gets, so that its front is flat",
+        Some(false) => "; it drives the first invasion on, which fingers",
+        None => "; it acts across the flow",
+    });
+    let method = format!(
+        "|rho_n - rho_w| g L^2/tension, g in the plane, L = {mean:.3e} m the mean distance between centers of neighboring pores{acts}"
+    );
+    Some(measure("bond-number", gravity.gradient.norm() * mean * mean, "").by(method))
+}
+
+/// With gravity: the width of the front at first breakthrough.
+fn front_width(config: &Configuration, cycles: &Cycles) -> Option<Measure> {
+    let axis = config.gravity.and(config.inlet)? / 2;
+    let at: Vec<f64> = cycles
+        .breakthrough()
+        .map_or_else(Vec::new, |moment| moment.displacement.front().map(|point| point[axis]).collect());
+    let mean = at.iter().sum::<f64>() / at.len() as f64;
+    let variance = at.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / at.len() as f64;
+    let method = "standard deviation of the places of menisci towards the displaced phase, without what is trapped, along the flow at first breakthrough";
+    Some(measure("front-width-m", variance.sqrt(), "m").by(method))
+}
+
 /// Number of measured entry pressures, if any are given.
 fn replaced(model: &Model) -> Option<Measure> {
     let first = model.cycles.as_ref().map(|cycles| &cycles.half_cycles()[0].conditions);
@@ -205,6 +235,12 @@ fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
         measure("events", cycles.history().len() as f64, "")
             .by("bursts, touches, overlaps, snap-offs and reconnections of all half cycles"),
     ];
+    if let Some(movable) = cycles.movable_saturation() {
+        let method = format!(
+            "share of the {space} in trapped ganglia so tall that their own head would push them on through a throat; they stay in place here, {ending}"
+        );
+        found.push(measure("movable-trapped-saturation", movable, "").by(method));
+    }
     if cycles.has_films() {
         let closed = cycles.history().iter().filter(|entry| entry.kind == EventKind::SnapOff).count();
         let share = format!("share of the {space} that films in corners hold");

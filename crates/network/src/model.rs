@@ -7,6 +7,7 @@ use super::conductance::conductances;
 use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
+use super::gravity::Gravity;
 use meniscus_case::Side;
 use meniscus_case::network::FilmModel;
 use meniscus_core::math::Bounds;
@@ -44,6 +45,8 @@ pub struct Configuration {
     pub geometry_hash: String,
     /// The left, right, bottom and top side.
     pub sides: [Side; 4],
+    /// Gravity for the phase that invades first, if it acts.
+    pub gravity: Option<Gravity>,
     /// The region of saturations and porosity, if it is not the whole domain.
     pub region: Option<Bounds>,
     /// What follows from the network alone.

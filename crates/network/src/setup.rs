@@ -8,6 +8,7 @@ use super::displacement::{Beginning, Conditions, Displacement, Element, Measured
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{Drive, Dynamic, Terms};
 use super::graph::Network;
+use super::gravity::Gravity;
 pub use super::ground::{Ground, geometry};
 use super::model::Configuration;
 use super::region::{Counted, porosity};
@@ -20,6 +21,7 @@ use meniscus_case::network::{
     DynamicDrive, FilmModel, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop,
 };
 use meniscus_case::{Case, SIDES, Side};
+use meniscus_core::math::{Bounds, Vec2};
 use meniscus_core::solver::Solver;
 use meniscus_geometry::interface::films::WallFilms;
 
@@ -79,7 +81,7 @@ fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
 
 /// The phases of a saved state for the first half cycle.
 fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Result<Beginning, SetupError> {
-    let half_cycles = half_cycles(wanted, ground.walls(), network);
+    let half_cycles = half_cycles(wanted, ground, network);
     let Some(first) = half_cycles.into_iter().next() else { return Err(SetupError::NoPore) };
     let fresh = Displacement::new(network, &ground.pores, first.conditions);
     let elements = fresh.elements();
@@ -110,7 +112,7 @@ fn assemble(
     initial: Option<Arc<Beginning>>,
 ) -> NetworkSolver {
     let (walls, pores) = (ground.walls(), Arc::clone(&ground.pores));
-    let half_cycles = if wanted.is_dynamic() { Vec::new() } else { half_cycles(wanted, walls, &network) };
+    let half_cycles = if wanted.is_dynamic() { Vec::new() } else { half_cycles(wanted, ground, &network) };
     let entry = wanted.interface.as_ref().map(|interface| Conditions {
         measured: measured(wanted),
         ..Conditions::new(angles(interface, walls, FluidPhase::NonWetting))
@@ -133,6 +135,7 @@ fn assemble(
         entry,
         geometry_hash: ground.hash.clone(),
         sides: wanted.sides.each(),
+        gravity: gravity(wanted, &network, ground.geometry.bounds(), first_invading(wanted)),
         region: wanted.region.map(Region::bounds),
         derived: if network.depth == ground.network.depth { Arc::clone(&ground.derived) } else { Arc::default() },
     };
@@ -157,8 +160,7 @@ fn assemble(
 pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Result<Option<DynamicSolver>, SetupError> {
     let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
     let config = quasi_static.config();
-    let invading =
-        if displacement.process == Process::Imbibition { FluidPhase::Wetting } else { FluidPhase::NonWetting };
+    let invading = first_invading(wanted);
     let [wetting, non_wetting] = viscosities;
     let sides = wanted.sides.each();
     let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
@@ -180,6 +182,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
         inlet,
         outlet,
         depth: config.depth_for(invading).map(|depth| (invading, depth)),
+        gravity: config.gravity,
     };
     let start = Displacement::new(&config.network, &config.pores, conditions);
     let mut dynamic = Dynamic::new(Arc::clone(&config.network), start, terms);
@@ -197,9 +200,31 @@ fn asked_in_time(wanted: &PoreNetwork) -> Option<(&NetworkDisplacement, &Network
     Some((displacement, wanted.interface.as_ref()?, displacement.dynamic?, viscosities))
 }
 
+/// The phase that invades first.
+fn first_invading(wanted: &PoreNetwork) -> FluidPhase {
+    match wanted.displacement.as_ref().map(|displacement| displacement.process) {
+        Some(Process::Imbibition) => FluidPhase::Wetting,
+        _ => FluidPhase::NonWetting,
+    }
+}
+
+/// Gravity for invasion by a phase; the pressure is applied in the middle of the inlet.
+fn gravity(wanted: &PoreNetwork, network: &Network, bounds: Bounds, invading: FluidPhase) -> Option<Gravity> {
+    let (acceleration, interface) = (Vec2::from(wanted.gravity?), wanted.interface.as_ref()?);
+    let difference = wanted.non_wetting?.density - wanted.wetting?.density;
+    let mut reference = 0.5 * (bounds.min + bounds.max);
+    if let Some(side) = wanted.sides.each().iter().position(|&side| side == Side::Inlet) {
+        let end = if side.is_multiple_of(2) { bounds.min } else { bounds.max };
+        reference[side / 2] = end[side / 2];
+    }
+    let depth = network.depth.map(|depth| depth_for(invading, depth, interface));
+    Some(Gravity { gradient: difference * acceleration / interface.tension, reference, invading, depth })
+}
+
 /// The half cycles of a case; none without a displacement.
-fn half_cycles(wanted: &PoreNetwork, walls: usize, network: &Network) -> Vec<HalfCycle> {
+fn half_cycles(wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Vec<HalfCycle> {
     let (Some(displacement), Some(interface)) = (&wanted.displacement, &wanted.interface) else { return Vec::new() };
+    let (walls, bounds) = (ground.walls(), ground.geometry.bounds());
     let open = |kind: Side| wanted.sides.each().map(|side| side == kind);
     let half = |invading: FluidPhase, [from, to]: [Side; 2], stop: Stop| {
         let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
@@ -207,7 +232,8 @@ fn half_cycles(wanted: &PoreNetwork, walls: usize, network: &Network) -> Vec<Hal
             let curvature = pressure / interface.tension;
             network.depth.map_or(curvature, |depth| depth_for(invading, depth, interface).plane(curvature))
         };
-        let corners = network.depth.map(|depth| film_terms(invading, depth, interface, walls));
+        let gravity = gravity(wanted, network, bounds, invading);
+        let corners = network.depth.map(|depth| film_terms(invading, depth, interface, (walls, gravity)));
         HalfCycle {
             invading,
             conditions: Conditions {
@@ -217,9 +243,11 @@ fn half_cycles(wanted: &PoreNetwork, walls: usize, network: &Network) -> Vec<Hal
                 events: displacement.events,
                 largest_curvature: stop.capillary_pressure.map_or(f64::INFINITY, |pressure| sign * in_plane(pressure)),
                 measured: measured(wanted),
+                gravity,
                 ..Conditions::new(angles(interface, walls, invading))
             },
             stop,
+            returning: angles(interface, walls, invading.other()),
             films: None,
             corners: corners.filter(|terms| terms.walls.iter().any(WallFilms::exist)),
             film_model: FilmModel::None,

@@ -62,7 +62,10 @@ pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid>
         let (viscosity, tension, density) = SCALED;
         return Some(Liquid { viscosity, tension, density, gravity });
     };
-    let preset = fluid.properties();
+    let preset = fluid.properties(checker, "thin-film.fluid");
+    if fluid.preset.is_some() && preset.is_none() {
+        return None;
+    }
     let tension = raw.tension.or(preset.and_then(|preset| preset.tension));
     let viscosity = fluid.viscosity.or(preset.map(|preset| preset.viscosity));
     let density = fluid.density.or(preset.map(|preset| preset.density)).or((gravity == 0.0).then_some(0.0));

@@ -176,6 +176,7 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("stop", raw.stop.is_some()),
         ("initial", raw.initial.is_some()),
         ("dynamic", raw.dynamic.is_some()),
+        ("gravity", raw.gravity.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         checker.refuse(

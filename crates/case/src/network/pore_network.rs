@@ -5,7 +5,7 @@ use super::measured::Measured;
 use super::region::{Region, region};
 use super::state::Start;
 use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawRegion};
-use crate::fluid::{Fluid, RawPhases, fluid};
+use crate::fluid::{Fluid, RawPhases, fluid, tension};
 use crate::side::{SIDES, Side, SideName, Sides};
 use crate::wetting::{self, WettingPatch};
 use meniscus_core::input::Checker;
@@ -31,6 +31,9 @@ pub struct PoreNetwork {
     pub measured: Option<Measured>,
     /// The displacement; `None` without an inlet.
     pub displacement: Option<NetworkDisplacement>,
+    /// Acceleration of gravity along x and y in m/s²; `None` without gravity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<[f64; 2]>,
     /// Where saturations and the porosity are taken; `None`: in the whole domain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<Region>,
@@ -67,6 +70,12 @@ pub(crate) fn network(
     let sides = sides(checker, raw);
     let none = &mut RawPhases::default();
     let phases = raw.phases.as_mut().unwrap_or(none);
+    let given = raw.interface.as_ref().and_then(|interface| interface.tension);
+    if raw.inlet.is_some() || raw.interface.is_some() || raw.wetting.is_some() {
+        if let Some(tension) = tension(checker, "network.interface", phases, given) {
+            raw.interface.get_or_insert_default().tension = Some(tension);
+        }
+    }
     let [wetting, non_wetting] =
         [("wetting", &mut phases.wetting), ("non-wetting", &mut phases.non_wetting)].map(|(name, raw)| match raw {
             Some(raw) => fluid(checker, &format!("network.phases.{name}"), raw).map(Some),
@@ -89,6 +98,7 @@ pub(crate) fn network(
         refuse_without_inlet(checker, raw);
         None
     };
+    let gravity = gravity(checker, raw, sides.as_ref());
     let region = region(checker, raw, sides.as_ref(), geometry);
     if let Some(Region { min, max, .. }) = region.filter(|region| !region.is_pack) {
         raw.region = Some(RawRegion { min: Some(min), max: Some(max), extent: None });
@@ -104,8 +114,37 @@ pub(crate) fn network(
         persistence: *raw.persistence.get_or_insert(DEFAULT_PERSISTENCE),
         measured: raw.measured_throats.clone(),
         displacement,
+        gravity,
         region,
     })
+}
+
+/// Gravity, if it acts; it needs the densities of both phases, and sides that are not periodic along it.
+fn gravity(checker: &mut Checker, raw: &RawNetwork, sides: Option<&Sides>) -> Option<[f64; 2]> {
+    let gravity = raw.gravity.filter(|gravity| *gravity != [0.0; 2])?;
+    let phases = raw.phases.clone().unwrap_or_default();
+    for (name, is_given) in [("wetting", phases.wetting.is_some()), ("non-wetting", phases.non_wetting.is_some())] {
+        // A displacement in time asks for them too.
+        if !is_given && raw.dynamic.is_none() {
+            checker.refuse(
+                format!("network.phases.{name}"),
+                format!("gravity acts by the difference of two densities, and that of the {name} phase is not given"),
+                format!("add [network.phases.{name}] with preset = \"water\", say, or density and viscosity"),
+            );
+        }
+    }
+    let kinds = sides.map(Sides::each);
+    let along = |axis: usize| gravity[axis] != 0.0 && kinds.is_some_and(|kinds| kinds[2 * axis] == Side::Periodic);
+    if let Some(axis) = (0..2).find(|&axis| along(axis)) {
+        let name = ["x", "y"][axis];
+        checker.refuse(
+            "network.gravity",
+            format!("gravity acts along {name}, and the domain is periodic along {name}: a height without an end"),
+            format!("make the sides {} and {} walls, or set this component to 0", SIDES[2 * axis], SIDES[2 * axis + 1]),
+        );
+        return None;
+    }
+    Some(gravity)
 }
 
 /// The kinds of all four sides; `None` if they are incompatible.

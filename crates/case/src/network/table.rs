@@ -17,7 +17,7 @@ tables! {
         pub outlet: SideName,
         /// The sides that are neither inlet nor outlet (default: walls).
         pub sides: RawNetworkSides,
-        /// The fluids; only viscosities count, for conductances and `dynamic` (default: 1 Pa s).
+        /// The fluids; viscosities count for conductances and `dynamic`, densities with `gravity` (default: 1 Pa s).
         pub phases: RawPhases,
         /// Interface between the fluids (required with an inlet).
         pub interface: RawInterface,
@@ -48,6 +48,9 @@ tables! {
         pub initial: PathBuf,
         /// Displacement in time, with viscous flow (default: quasi-static).
         pub dynamic: RawDynamic,
+        /// Acceleration of gravity along x and y in m/s², for a chip tilted by α the part g sin α in its plane; applied pressures are those in the middle of
+        /// the inlet (default `[0.0, 0.0]`).
+        pub gravity: [f64; 2],
         /// Region over which saturations and the porosity are taken; not with `dynamic` (default: the whole domain).
         pub region: RawRegion,
     }
@@ -79,8 +82,9 @@ tables! {
     pub(crate) struct RawDynamic {
         /// Injected area of the invading phase per time in m²/s, with `geometry.depth` the volume in m³/s (required without `pressure-drop`).
         pub rate: f64 => Key::positive("a rate in m2/s"),
-        /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
-        pub pressure_drop: f64 => Key::positive("a pressure drop in Pa"),
+        /// Pressure at the inlet minus that at the outlet in Pa, 0 for spontaneous imbibition; with `gravity` without what the displaced phase at rest has
+        /// (required without `rate`).
+        pub pressure_drop: f64 => Key::not_negative("a pressure drop in Pa"),
         /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
         pub largest_step: f64 => Key::within("a share of the pore volume", 1.0e-6, 1.0),
         /// Initial saturation of the wetting phase: the invading phase fills part of the pores that are open at the inlet and completes them first (default:

@@ -11,12 +11,19 @@ const FORMAT: u32 = 1;
 pub struct Checker {
     /// The problems so far.
     pub problems: Vec<Problem>,
+    /// What a reader should know of values that are right.
+    pub notes: Vec<String>,
 }
 
 impl Checker {
     /// Records a problem at the key path `path`, with a remedy.
     pub fn refuse(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.problems.push(Problem { path: path.into(), message: message.into(), help: help.into() });
+    }
+
+    /// Records what a reader should know of a value that is right.
+    pub fn note(&mut self, note: String) {
+        self.notes.push(note);
     }
 
     /// Whether there is a problem at the key path `path` or within it.

@@ -177,7 +177,7 @@ impl<'d> Reader<'d> {
             };
             let span = error.span().unwrap_or_default();
             let steps = find(self.root.get_ref(), &span);
-            let explained = self.explain_at(&error, &steps);
+            let explained = self.explain_at::<T>(&error, &steps);
             let missing = explained.missing.clone();
             if !self.record(explained, span, &steps) {
                 self.remove(steps);
@@ -193,7 +193,7 @@ impl<'d> Reader<'d> {
         T::deserialize(toml::Deserializer::from(self.root.clone()))
     }
 
-    fn explain_at(&self, error: &toml::de::Error, steps: &[Step]) -> Explained {
+    fn explain_at<T: DeserializeOwned>(&self, error: &toml::de::Error, steps: &[Step]) -> Explained {
         let mut explained = explain(error.message());
         match node(self.root.get_ref(), steps).map(Spanned::get_ref) {
             Some(DeValue::Datetime(_)) => {
@@ -202,10 +202,25 @@ impl<'d> Reader<'d> {
             Some(value) if explained.wants_name => {
                 explained.message =
                     format!("expected a name in quotes or a table, found {}", with_article(value.type_str()));
+                explained.help = self.names_at::<T>(steps).unwrap_or_default();
             }
             _ => {}
         }
         explained
+    }
+
+    /// The names that a value may be: those that serde lists where it finds an unknown one.
+    fn names_at<T: DeserializeOwned>(&self, steps: &[Step]) -> Option<String> {
+        let (last, parent) = steps.split_last()?;
+        let mut root = self.root.clone();
+        let unknown = Spanned::new(NOWHERE, DeValue::String("".into()));
+        match (container(root.get_mut(), parent), last) {
+            (Container::Table(table), Step::Key(key)) => *table.get_mut(key.as_str())? = unknown,
+            (Container::Array(array), Step::Index(index)) => *array.get_mut(*index)? = unknown,
+            _ => return None,
+        }
+        let error = T::deserialize(toml::Deserializer::from(root)).err()?;
+        (error.span() == Some(NOWHERE)).then(|| explain(error.message()).help)
     }
 
     /// Records a serde error, unless it follows from an earlier removal; returns whether it did.

@@ -285,14 +285,14 @@ pub trait Words: Copy + serde::Serialize + 'static {
     }
 }
 
-/// Declares enums whose variants are the words that a key allows, in kebab case.
+/// Declares enums whose variants are the words that a key allows, in kebab case or as given by `= "word"`.
 #[macro_export]
 macro_rules! words {
-    ($($(#[$outer:meta])* $vis:vis enum $name:ident { $($(#[doc = $doc:literal])+ $word:ident,)* })*) => {$(
+    ($($(#[$outer:meta])* $vis:vis enum $name:ident { $($(#[doc = $doc:literal])+ $word:ident $(= $written:literal)?,)* })*) => {$(
         $(#[$outer])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(rename_all = "kebab-case")]
-        $vis enum $name { $($(#[doc = $doc])+ $word,)* }
+        $vis enum $name { $($(#[doc = $doc])+ $(#[serde(rename = $written)])? $word,)* }
 
         impl $crate::input::tables::Value for $name {}
 

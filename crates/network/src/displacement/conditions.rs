@@ -1,6 +1,9 @@
 //! Conditions of a displacement: contact angles, open sides, and types of events.
 
+use crate::gravity::Gravity;
 use meniscus_case::network::{Events, Trapping};
+use meniscus_core::math::Vec2;
+use meniscus_geometry::interface::head::Head;
 
 /// Conditions of a displacement.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +18,14 @@ pub struct Conditions {
     pub trapping: Trapping,
     /// The types of events.
     pub events: Events,
-    /// No event takes place above this curvature in 1/m.
+    /// No event takes place above this applied curvature in 1/m.
     pub largest_curvature: f64,
     /// Bursts that were measured.
     pub measured: Vec<MeasuredBurst>,
     /// The effect of corner films.
     pub films: CornerFilms,
+    /// Gravity; `None`: all menisci are at the applied pressure.
+    pub gravity: Option<Gravity>,
 }
 
 /// Effect of corner films of the wetting phase in a chip on a displacement.
@@ -68,7 +73,13 @@ impl Conditions {
             largest_curvature: f64::INFINITY,
             measured: Vec::new(),
             films: CornerFilms::Absent,
+            gravity: None,
         }
+    }
+
+    /// The hydrostatic head at a point in m.
+    pub(crate) fn head(&self, at: Vec2) -> Head {
+        self.gravity.map_or_else(Head::default, |gravity| gravity.head(at))
     }
 
     /// The curvature in 1/m at which a meniscus bursts through a throat, `formula` by the formula.

@@ -29,8 +29,9 @@ pub(crate) struct GateFacts {
     pub(crate) elements: [usize; 2],
     /// The throat of the network, if it is one; its regions are those of both sides.
     pub(crate) throat: Option<usize>,
-    /// Length of its chord in m.
+    /// Length of its chord in m, and the middle of it.
     pub(crate) width: f64,
+    pub(crate) middle: Vec2,
 }
 
 impl Displacement {
@@ -44,6 +45,7 @@ impl Displacement {
                 elements: [mesh.element(index, 0), mesh.element(index, 1)],
                 throat: gate.throat,
                 width: (crossing.to - crossing.from).norm(),
+                middle: mesh.middle(index),
             }
         };
         mesh.gates.iter().enumerate().map(facts).collect()
@@ -76,7 +78,7 @@ impl Displacement {
     }
 
     /// The passage of a meniscus, and the curvature in 1/m of its own event.
-    pub(crate) fn front(&self, (gate, end): FrontId) -> Option<(&Passage, f64)> {
+    pub(crate) fn passage_of(&self, (gate, end): FrontId) -> Option<(&Passage, f64)> {
         self.fronts[gate][end].as_ref().map(|front| (&front.passage, front.own))
     }
 

@@ -35,7 +35,7 @@ impl EventKind {
 /// A pending event, which another event may prevent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Candidate {
-    /// Curvature of the meniscus in 1/m.
+    /// Applied curvature in 1/m: that of the meniscus without the head at its height.
     pub(crate) curvature: f64,
     pub(crate) kind: EventKind,
     pub(crate) gate: usize,

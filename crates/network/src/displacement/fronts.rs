@@ -9,6 +9,7 @@ use crate::graph::WallPiece;
 use meniscus_case::network::Events;
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
+use meniscus_geometry::interface::head::Head;
 use meniscus_geometry::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 
 /// Shift of a wall beside a crossing of a loop so that both meet.
@@ -61,11 +62,23 @@ impl Displacement {
         if kind == EventKind::Burst || burst < own {
             (kind, own) = (EventKind::Burst, burst);
         }
-        self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
+        let curvature = self.head(mesh, gate).applied(own);
+        self.queue.push(Candidate { curvature, kind, gate, to, partner: None, is_joined: false });
         if self.conditions.events == Events::All {
             self.meet_neighbors(mesh, (gate, to), &passage, own);
         }
         self.fronts[gate][to] = Some(Front { passage, own });
+    }
+
+    /// The hydrostatic head in the middle of a gate.
+    pub(super) fn head(&self, mesh: &Mesh, gate: usize) -> Head {
+        self.head_between(mesh, [gate; 2])
+    }
+
+    /// The same halfway between the middles of two gates, for a meniscus that spans both.
+    pub(super) fn head_between(&self, mesh: &Mesh, gates: [usize; 2]) -> Head {
+        let [one, other] = gates.map(|gate| mesh.middle(gate));
+        self.conditions.head(0.5 * (one + other))
     }
 
     /// The event of a meniscus by itself, and its curvature in 1/m.
@@ -88,7 +101,10 @@ impl Displacement {
             let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, (other, end), neighbor.offset).0);
             let facing = moved.as_ref().unwrap_or(&front.passage);
             let (a, b) = if hand == Hand::Left { (passage, facing) } else { (facing, passage) };
-            if let Some(curvature) = overlap(a, b, neighbor.shared, own.min(front.own)) {
+            let [here, there] = [self.head(mesh, gate), self.head(mesh, other)];
+            let (head_a, head_b) = if hand == Hand::Left { (here, there) } else { (there, here) };
+            let up_to = here.applied(own).min(there.applied(front.own));
+            if let Some(curvature) = overlap((a, head_a), (b, head_b), neighbor.shared, up_to) {
                 let partner = Some((neighbor.front, hand));
                 let kind = EventKind::Overlap;
                 self.queue.push(Candidate { curvature, kind, gate, to, partner, is_joined: false });
@@ -136,15 +152,15 @@ impl Displacement {
         None
     }
 
-    /// Curvature in 1/m of the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both \[CieplakRobbins1988\]. Within
-    /// one element it advances at once.
+    /// Applied curvature in 1/m at the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both \[CieplakRobbins1988\].
+    /// Within one element it advances at once.
     pub(super) fn joined_event(&self, mesh: &Mesh, front: FrontId, hand: Hand, neighbor: &Neighbor) -> f64 {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;
         }
         let (passage, obstacles) = self.joined_passage(mesh, front, hand, neighbor);
         let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
-        passage.touch(&obstacles, burst).unwrap_or(burst)
+        self.head_between(mesh, [front.0, neighbor.front.0]).applied(passage.touch(&obstacles, burst).unwrap_or(burst))
     }
 
     /// The passage of the meniscus into which two neighbors merge, and the walls ahead of it.

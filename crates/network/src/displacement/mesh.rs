@@ -191,6 +191,13 @@ impl Mesh {
         self
     }
 
+    /// The middle of the chord of a gate in m, in the frame of its first loop.
+    pub(crate) fn middle(&self, gate: usize) -> Vec2 {
+        let (part, slot) = self.gates[gate].crossings[0];
+        let Crossing { from, to, .. } = self.loops[part].crossings[slot];
+        0.5 * (from + to)
+    }
+
     /// The element on side `end` of a gate.
     pub(crate) fn element(&self, gate: usize, end: usize) -> usize {
         self.element_of[self.gates[gate].crossings[end].0]

@@ -23,6 +23,20 @@ pub(super) fn outline(part: &Loop) -> Vec<Vec2> {
     points
 }
 
+/// The centroid of a polygon.
+pub(crate) fn centroid(outline: &[Vec2]) -> Vec2 {
+    let Some(&origin) = outline.first() else { return Vec2::zeros() };
+    let (mut sum, mut area) = (Vec2::zeros(), 0.0);
+    for k in 0..outline.len() {
+        let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
+        let (a, b) = (a - origin, b - origin);
+        let part = a.x * b.y - a.y * b.x;
+        sum += (a + b) * part;
+        area += part;
+    }
+    if area == 0.0 { origin } else { origin + sum / (3.0 * area) }
+}
+
 /// Adds the start of a curve and the points along it, without its end.
 fn sample(curve: &Curve, points: &mut Vec<Vec2>) {
     let count = match curve {

@@ -7,7 +7,7 @@ use super::conditions::Conditions;
 use super::connected::Held;
 use super::event::Candidate;
 use super::mesh::Mesh;
-use super::outline::outline;
+use super::outline::{centroid, outline};
 use super::rings::Rings;
 use super::trapping::Connection;
 use crate::graph::{Network, Pores, WallPiece};
@@ -34,6 +34,13 @@ pub struct Element {
     pub area: f64,
     /// Its boundary in m, arcs as chords, for pictures; the last point is not repeated.
     pub outline: Vec<Vec2>,
+}
+
+impl Element {
+    /// The centroid of its outline in m.
+    pub fn center(&self) -> Vec2 {
+        centroid(&self.outline)
+    }
 }
 
 /// A meniscus in a gate, facing the element on one side of it.
@@ -315,11 +322,21 @@ impl Displacement {
         self.has_reached_outlet
     }
 
+    /// The middles of all gates with a meniscus that the invading phase can advance, in m.
+    pub(crate) fn front(&self) -> impl Iterator<Item = Vec2> + '_ {
+        let has_front = |&gate: &usize| self.fronts[gate].iter().any(Option::is_some);
+        (0..self.fronts.len()).filter(has_front).map(|gate| self.mesh.middle(gate))
+    }
+
     /// The menisci at the applied curvature in 1/m, each a polyline in m.
     pub(crate) fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
         const POINTS: usize = 17;
-        let fronts = self.fronts.iter().flatten().flatten();
-        fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
+        let fronts =
+            self.fronts.iter().enumerate().flat_map(|(gate, ends)| ends.iter().flatten().map(move |it| (gate, it)));
+        let at_rest = |(gate, front): (usize, &Front)| {
+            front.passage.at(self.head(&self.mesh, gate).local(applied).min(front.own))
+        };
+        fronts.filter_map(at_rest).map(|meniscus| meniscus.points(POINTS)).collect()
     }
 
     /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that

@@ -88,8 +88,10 @@ impl Iterator for Displacement {
     fn next(&mut self) -> Option<Event> {
         let mesh = self.mesh.clone();
         let (candidate, filled) = self.next_candidate(&mesh, false)?;
-        let Candidate { kind, curvature, gate, .. } = candidate;
+        let Candidate { kind, curvature, gate, partner, .. } = candidate;
         self.applied = self.applied.max(curvature);
+        let met = partner.map_or(gate, |((other, _), _)| other);
+        let curvature = self.head_between(&mesh, [gate, met]).local(curvature);
         match kind {
             EventKind::SnapOff => self.close(gate),
             EventKind::Reconnection => self.reopen(gate),

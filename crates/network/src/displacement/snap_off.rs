@@ -161,7 +161,8 @@ impl Displacement {
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let own = self.conditions.burst(mesh.gates[gate].throat, formula);
         let kind = EventKind::Reconnection;
-        self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
+        let curvature = self.head(mesh, gate).applied(own);
+        self.queue.push(Candidate { curvature, kind, gate, to, partner: None, is_joined: false });
         self.fronts[gate][to] = Some(Front { passage, own });
     }
 

@@ -91,37 +91,7 @@ impl Displacement {
         begun
     }
 
-    /// For each element of the mesh the curvature in 1/m of the menisci around its trapped ganglion: the one at which it was cut off, or the
-    /// lowest at which one of them would advance, since its area is constant; NaN if not trapped.
-    fn trapped_curvatures(&self) -> Vec<f64> {
-        let mesh = &self.mesh;
-        let mut found = vec![f64::NAN; mesh.elements.len()];
-        let mut is_visited = vec![false; mesh.elements.len()];
-        for first in (0..mesh.elements.len()).filter(|&element| self.connection.trapped[element]) {
-            if is_visited[first] {
-                continue;
-            }
-            is_visited[first] = true;
-            let (mut region, mut next, mut curvature) = (vec![first], 0, f64::INFINITY);
-            while let Some(&element) = region.get(next) {
-                next += 1;
-                curvature = curvature.min(self.held[element]);
-                for &(gate, to) in &mesh.elements[element].gates {
-                    let beyond = mesh.element(gate, 1 - to);
-                    if self.invaded[beyond] {
-                        let (passage, obstacles) = self.passage(mesh, (gate, to), Vec2::zeros());
-                        curvature = curvature.min(self.own_event(&passage, &obstacles).1);
-                    } else if self.connection.trapped[beyond] && !std::mem::replace(&mut is_visited[beyond], true) {
-                        region.push(beyond);
-                    }
-                }
-            }
-            region.into_iter().for_each(|element| found[element] = curvature);
-        }
-        found
-    }
-
-    /// The curvature in 1/m at which all connected menisci can be at rest: `applied`, or that of the next event if it is lower.
+    /// The applied curvature in 1/m at which all connected menisci can be at rest: `applied`, or that of the next event if it is lower.
     pub(crate) fn resting_curvature(&self, applied: f64) -> f64 {
         let is_open = |it: &&Candidate| {
             let front = (it.gate, it.to);
@@ -179,19 +149,21 @@ impl Displacement {
             if !self.invaded[from] || self.invaded[into] || is_joined((gate, to)) {
                 continue;
             }
+            let head = self.head(mesh, gate);
+            let at_rest = |applied: f64, held: f64| head.local(if held.is_nan() { applied } else { held });
             let curvature = match &self.fronts[gate][to] {
-                Some(front) => applied.min(front.own),
-                None if self.connection.trapped[into] => trapped[into],
-                None => self.held[from],
+                Some(front) => head.local(applied).min(front.own),
+                None if self.connection.trapped[into] => at_rest(applied, trapped[into]),
+                None => at_rest(applied, self.held[from]),
             };
-            let curvature = if curvature.is_nan() { applied } else { curvature };
             let own = self.fronts[gate][to].as_ref().map(|front| front.passage.clone());
             let passage = own.unwrap_or_else(|| self.passage(mesh, (gate, to), Vec2::zeros()).0);
             let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
             found.extend(self.at(&passage, curvature.min(burst), &[(gate, to)]));
         }
         for pair in &joined {
-            found.extend(self.at(&pair.passage, applied, &pair.gates));
+            let head = self.head_between(mesh, pair.gates.map(|(gate, _)| gate));
+            found.extend(self.at(&pair.passage, head.local(applied), &pair.gates));
         }
         found
     }

@@ -169,7 +169,7 @@ impl Dynamic {
         let (stopped, ahead): (Vec<_>, Vec<_>) =
             self.future_menisci(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
         let stopped: f64 = stopped.iter().map(|it| it.area(filling.curvature)).sum();
-        let first = ahead.iter().map(|it| it.curve.end().1).reduce(f64::min);
+        let first = ahead.iter().map(|it| it.event()).reduce(f64::min);
         let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - excess_areas;
         let full = held(filling.curvature);
         let mut points = vec![(full, filling.curvature)];

@@ -7,6 +7,7 @@ use super::event_functions::{Areas, EventFunction, REACHED};
 use super::{Dynamic, Filling, Meniscus, Occurrence};
 use crate::cycles::Invasion;
 use crate::displacement::{Advance, EventKind, FrontId, Phase};
+use meniscus_geometry::interface::head::Head;
 
 /// A meniscus that forms in a gate of an element when it is full.
 pub(super) struct NewMeniscus {
@@ -16,12 +17,19 @@ pub(super) struct NewMeniscus {
     most: f64,
     /// Upper bound of its swept area in m².
     free: f64,
+    /// The head in its gate less that in the element behind.
+    head: Head,
 }
 
 impl NewMeniscus {
-    /// Swept area in m² at a curvature in 1/m.
-    pub(crate) fn area(&self, curvature: f64) -> f64 {
-        self.curve.area(curvature.min(self.most)).min(self.free)
+    /// Swept area in m² at a curvature in 1/m in the element behind.
+    pub(crate) fn area(&self, behind: f64) -> f64 {
+        self.curve.area(self.head.local(behind).min(self.most)).min(self.free)
+    }
+
+    /// Curvature in 1/m in the element behind at its event.
+    pub(crate) fn event(&self) -> f64 {
+        self.head.applied(self.curve.end().1)
     }
 }
 
@@ -60,7 +68,8 @@ impl Dynamic {
                     + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>()
                     + self.passed_in_outlet(into);
                 let free = (self.displacement.elements()[into].area - held).max(0.0);
-                NewMeniscus { front: *front, curve: Arc::clone(curve), most: curve.end().1, free }
+                let (most, head) = (curve.end().1, self.head_ahead(*front));
+                NewMeniscus { front: *front, curve: Arc::clone(curve), most, free, head }
             })
             .collect()
     }
@@ -80,6 +89,11 @@ impl Dynamic {
             (all > 0.0).then(|| (front, beyond.min(all) * area / all))
         };
         self.displacement.gates_of(into).iter().filter_map(overhang).collect()
+    }
+
+    /// The head in the gate of a meniscus less that in the element from which it comes.
+    fn head_ahead(&self, front: FrontId) -> Head {
+        self.space.gate_heads[front.0].above(self.space.element_heads[self.origin(front)])
     }
 
     /// The element that a meniscus enters.
@@ -151,7 +165,7 @@ impl Dynamic {
         let Some((first, curvature)) = all.max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
         let invasion = self.note(EventKind::Overlap, first, curvature);
         if self.state.filling[element].is_none() {
-            self.begin_filling(element, curvature, false);
+            self.begin_filling(element, self.space.gate_heads[first.0].applied(curvature), false);
         }
         self.state.invasions[element].get_or_insert(invasion);
         waiting.into_iter().for_each(|(front, _)| self.burst(front));
@@ -165,16 +179,18 @@ impl Dynamic {
         let is_joined = advance.fills.len() > 1;
         for &element in &advance.fills {
             if self.state.filling[element].is_none() {
-                self.begin_filling(element, advance.curvature, is_joined);
+                let applied = self.space.gate_heads[front.0].applied(advance.curvature);
+                self.begin_filling(element, applied, is_joined);
                 self.state.invasions[element].get_or_insert(invasion);
             }
         }
         [Some(front), partner].into_iter().flatten().for_each(|front| self.burst(front));
     }
 
-    pub(super) fn begin_filling(&mut self, element: usize, event: f64, is_joined: bool) {
+    /// The invading phase enters an element after an event at an applied curvature in 1/m.
+    pub(super) fn begin_filling(&mut self, element: usize, applied: f64, is_joined: bool) {
         self.fronts.ahead[element] = self.menisci_ahead(element);
-        let curvature = self.body_curvature(element).min(event);
+        let curvature = self.body_curvature(element).min(self.space.element_heads[element].local(applied));
         self.state.filling[element] = Some(Filling { area: 0.0, curvature, is_joined });
         self.graph = None;
     }
@@ -235,16 +251,17 @@ impl Dynamic {
         let cut_off = self.trapped();
         let new: Vec<NewMeniscus> = std::mem::take(&mut self.fronts.ahead[element])
             .into_iter()
-            .filter(|(front, _)| self.displacement.front(*front).is_some())
+            .filter(|(front, _)| self.displacement.passage_of(*front).is_some())
             .map(|(front, curve)| {
                 // The phase that fills an element cut off from the outlet rises no further.
-                let most = if cut_off[self.ahead_of(front)] { filling.curvature } else { f64::INFINITY };
-                NewMeniscus { front, curve, most, free: f64::INFINITY }
+                let head = self.head_ahead(front);
+                let most = if cut_off[self.ahead_of(front)] { head.local(filling.curvature) } else { f64::INFINITY };
+                NewMeniscus { front, curve, most, free: f64::INFINITY, head }
             })
             .collect();
         // The excess goes to the first to reach its event among those with a path to the outlet.
         let going_on = new.iter().filter(|begun| begun.most == f64::INFINITY);
-        let first = going_on.map(|it| (it.curve.end().1, it.front)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let first = going_on.map(|it| (it.event(), it.front)).min_by(|a, b| a.0.total_cmp(&b.0));
         let curvature = common_curvature(&new, left, first.map_or(filling.curvature, |(curvature, _)| curvature));
         left -= new.iter().map(|begun| begun.area(curvature)).sum::<f64>();
         for begun in new {
@@ -283,7 +300,7 @@ fn common_curvature(menisci: &[NewMeniscus], area: f64, most: f64) -> f64 {
     if menisci.is_empty() || held(high) <= area {
         return high;
     }
-    let mut low = menisci.iter().map(|begun| begun.curve.start().1).fold(high, f64::min);
+    let mut low = menisci.iter().map(|begun| begun.head.applied(begun.curve.start().1)).fold(high, f64::min);
     let mut reach = (high - low).max(high.abs()).max(f64::MIN_POSITIVE);
     while held(low) > area && reach.is_finite() {
         low -= reach;

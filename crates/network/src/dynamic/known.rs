@@ -155,7 +155,8 @@ impl Dynamic {
             self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
             let own = self.drop_without_rise(&graph.links[graph.link_of[gate]?]).0;
             let event = self.fronts.curves[gate][end].as_ref()?.end().1;
-            Some(self.space.terms.tension * (event - now).max(0.0) / (own + resistance))
+            let head = self.space.element_heads[filling_pore.element].above(self.space.gate_heads[gate]).signed();
+            Some(self.space.terms.tension * (event - now + head).max(0.0) / (own + resistance))
         };
         self.displacement.gates_of(filling_pore.element).iter().filter_map(rate).sum()
     }

@@ -1,5 +1,6 @@
 //! Measures, events and diagrams of a dynamic displacement.
 
+use super::Drive;
 use super::model::DynamicModel;
 use crate::cycles::FluidPhase;
 use crate::measures::{Costly, of_network};
@@ -65,6 +66,22 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
             .by("matrices factored and solved with, over the number of events"),
     ]);
     found
+}
+
+/// A warning if menisci hold a given pressure drop before breakthrough.
+pub(crate) fn at_rest(dynamic: &super::Dynamic) -> Option<String> {
+    /// Largest pore volume that would flow in during the time so far.
+    const STILL: f64 = 1e-6;
+    let (time, (_, inflow)) = (dynamic.time(), dynamic.drive_now());
+    let rests = time > 0.0 && dynamic.breakthrough().is_none() && inflow.abs() * time < STILL * dynamic.pore_area();
+    match dynamic.terms().drive {
+        Drive::PressureDrop(pressure) if rests => Some(format!(
+            "the menisci came to rest before breakthrough, with {:.3} of the pore space invaded: they hold the pressure drop of {pressure} Pa; raise it, or, for \
+             spontaneous imbibition, give the chip a depth or a smaller angle",
+            dynamic.invading_area() / dynamic.pore_area()
+        )),
+        _ => None,
+    }
 }
 
 /// A warning if menisci are fast enough to leave films of the wetting phase on floor and lid, which the network neglects.

@@ -7,7 +7,9 @@
 //! R = μ₁ r₁ + μ₂ r₂ (its two halves), and a meniscus in it that has swept the area v since the chord of its gate with σ κ(v), where the
 //! curvature κ is exact for the walls (`capillary_curve.rs`) and includes that by floor and lid:
 //!
-//! R q = p_i − p_j − σ κ(v),  dv/dt = q,  and in each node outflow − inflow = source.
+//! R q = p_i − p_j − σ (κ(v) − h),  dv/dt = q,  and in each node outflow − inflow = source.
+//!
+//! Pressures are those in excess of the same phase at rest, so that gravity acts on menisci alone, by the head σ h of the density difference at their height.
 //!
 //! One step of [`Dynamic::advance`], by backward Euler with a step Δt that ends at the next event:
 //!
@@ -63,6 +65,7 @@ use super::cycles::Invasion;
 use super::displacement::{Advance, Displacement, FrontId, GateFacts, Phase};
 use super::graph::Network;
 pub use meniscus_case::network::Drive;
+use meniscus_geometry::interface::head::Head;
 use meniscus_geometry::interface::menisci::Passage;
 
 /// How a step ended.
@@ -96,6 +99,9 @@ struct PoreSpace {
     is_inlet: Vec<bool>,
     /// By gate and end: where menisci touch the outlet.
     reaches: Vec<[Option<Reach>; 2]>,
+    /// Hydrostatic heads in the middles of gates, and in the centers of elements.
+    gate_heads: Vec<Head>,
+    element_heads: Vec<Head>,
 }
 
 /// The menisci of the full elements, with their coming events. They follow from the order in which elements became full.
@@ -134,6 +140,8 @@ impl Dynamic {
             is_outlet: Vec::new(),
             is_inlet: vec![false; elements],
             reaches: Vec::new(),
+            gate_heads: displacement.gates().iter().map(|gate| terms.head(gate.middle)).collect(),
+            element_heads: displacement.elements().iter().map(|element| terms.head(element.center())).collect(),
             gates: displacement.gates(),
             network,
             terms,
@@ -201,7 +209,7 @@ impl Dynamic {
     }
 
     fn rise_of(&self, front: FrontId) -> Option<Arc<CapillaryCurve>> {
-        let (passage, own) = self.displacement.front(front)?;
+        let (passage, own) = self.displacement.passage_of(front)?;
         self.curve(front, passage, own)
     }
 
@@ -304,7 +312,7 @@ impl Dynamic {
         self.displacement.waiting().filter_map(|front| {
             let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
             let curve = self.fronts.curves[front.0][front.1].as_ref()?;
-            let (passage, own) = self.displacement.front(front)?;
+            let (passage, own) = self.displacement.passage_of(front)?;
             passage.at(curve.curvature(meniscus.area).min(own))
         })
     }

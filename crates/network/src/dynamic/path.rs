@@ -103,7 +103,8 @@ impl Dynamic {
     /// The area in m² of a law at the end of a step of the length `dt` in s, in equilibrium with a pressure drop in Pa.
     fn equilibrium_area(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
         let (law, tension) = (&known.laws[law], self.space.terms.tension);
-        law.curve.balanced_area(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
+        let (resistance, without) = known.drops[law.link];
+        law.curve.balanced_area(law.area, resistance / (tension * dt), (drop - without) / tension)
     }
 
     /// The same for a filling element that is not full: with one relaxation time, the inflow during a time d is a d/(1 + b d).
@@ -215,7 +216,8 @@ impl Dynamic {
         let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
         let matches = |(index, law): (usize, &CapillaryLaw)| {
             let curvature = law.curve.resistance(area(index)).0;
-            let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
+            let (resistance, without) = known.drops[law.link];
+            let taken = resistance * path.passed(law.link, dt) / dt + tension * curvature + without;
             (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
         };
         if !known.laws.iter().enumerate().all(matches) {

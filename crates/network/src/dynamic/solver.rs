@@ -184,6 +184,7 @@ impl Solver for DynamicSolver {
         if self.is_closed {
             found.push("the injected phase can no longer flow out: the displacement ended there".to_owned());
         }
+        found.extend(measures::at_rest(&self.model.dynamic));
         found.extend(measures::films_left(&self.model));
         found
     }

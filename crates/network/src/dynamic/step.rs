@@ -95,7 +95,18 @@ impl Dynamic {
         let drop = match (link.kind, self.space.terms.drive) {
             (LinkKind::Inlet, Drive::PressureDrop(pressure)) => pressure,
             // Beyond the outlet the depth is the same, and menisci are flat in the plane.
-            (LinkKind::Outlet, _) if self.is_invaded(a) => self.space.terms.tension * self.space.terms.with_depth(0.0),
+            (LinkKind::Outlet, _) if self.is_invaded(a) => {
+                let flat = self.space.terms.with_depth(0.0);
+                self.space.terms.tension * (flat - self.space.element_heads[a].signed())
+            }
+            (LinkKind::Meniscus((gate, end)), _) => {
+                let has_left = self.state.menisci[gate][end].is_some_and(|meniscus| meniscus.has_left);
+                let head = if has_left { self.space.element_heads[b] } else { self.space.gate_heads[gate] };
+                -self.space.terms.tension * head.signed()
+            }
+            (LinkKind::FillingPore(element), _) => {
+                -self.space.terms.tension * self.space.element_heads[element].signed()
+            }
             _ => 0.0,
         };
         (resistance, drop)
@@ -109,7 +120,7 @@ impl Dynamic {
         for (law, &from) in known.laws.iter().zip(about) {
             let (curvature, slope) = law.curve.resistance(from);
             conductances[law.link] = 1.0 / (known.drops[law.link].0 + tension * slope * dt);
-            jumps[law.link] = -tension * (curvature + slope * (law.area - from));
+            jumps[law.link] -= tension * (curvature + slope * (law.area - from));
         }
         (conductances, jumps)
     }

@@ -52,7 +52,16 @@ impl Pack {
     }
 
     fn dynamic(&self, angle_deg: f64, viscosity: [f64; 2], drive: Drive, largest_step: f64) -> Dynamic {
-        let terms = Terms { viscosity, tension: TENSION, drive, largest_step, inlet: LEFT, outlet: RIGHT, depth: None };
+        let terms = Terms {
+            viscosity,
+            tension: TENSION,
+            drive,
+            largest_step,
+            inlet: LEFT,
+            outlet: RIGHT,
+            depth: None,
+            gravity: None,
+        };
         Dynamic::new(Arc::clone(&self.network), self.displacement(angle_deg, LEFT, false), terms)
     }
 
@@ -84,6 +93,7 @@ fn one_fluid_flows_as_the_permeability_of_the_network_says() {
             inlet: LEFT,
             outlet: RIGHT,
             depth: None,
+            gravity: None,
         };
         // Nothing comes in where the displacement knows no inlet: all is one phase.
         let displacement = pack.displacement(40.0, [false; 4], false);
@@ -256,8 +266,16 @@ fn a_pressure_below_all_entry_pressures_comes_to_rest() {
 
 /// A pack that begins with a share of what its pores at the inlet hold.
 fn beginning_with(pack: &Pack, part: f64, rate: Drive, viscosity: [f64; 2]) -> (Dynamic, f64) {
-    let terms =
-        Terms { viscosity, tension: TENSION, drive: rate, largest_step: 0.01, inlet: LEFT, outlet: RIGHT, depth: None };
+    let terms = Terms {
+        viscosity,
+        tension: TENSION,
+        drive: rate,
+        largest_step: 0.01,
+        inlet: LEFT,
+        outlet: RIGHT,
+        depth: None,
+        gravity: None,
+    };
     let empty = || Dynamic::new(Arc::clone(&pack.network), pack.displacement(40.0, [false; 4], false), terms);
     let most = empty().beginning_with(1.0).unwrap_err();
     (empty().beginning_with(part * most).unwrap(), most)

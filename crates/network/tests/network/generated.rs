@@ -29,6 +29,8 @@ pub struct Scene {
     pub flow: usize,
     pub angle_deg: f64,
     pub trapping: bool,
+    /// Whether gravity acts.
+    pub is_heavy: bool,
 }
 
 /// A scene of its own for each number.
@@ -51,7 +53,7 @@ pub fn scene(number: u64) -> Scene {
     let (size, places) = if is_lattice { lattice(&mut rng) } else { scattered(&mut rng) };
     let corners = 3 + (5.0 * rng.random::<f64>()) as usize;
     let grains = places.into_iter().map(|place| grain(kind, corners, place, is_lattice, &mut rng)).collect();
-    Scene { size, grains, sides, flow, angle_deg, trapping }
+    Scene { size, grains, sides, flow, angle_deg, trapping, is_heavy: number % 3 == 1 }
 }
 
 /// Sites of a square, hexagonal or staggered lattice with room around each, moved by nearly nothing.
@@ -192,7 +194,7 @@ pub fn drawing(number: u64) -> Scene {
             Grain::Capsule([[x - dx, y - dy], [x + dx, y + dy]], r - half)
         }),
     };
-    Scene { size, grains, sides, flow, angle_deg, trapping }
+    Scene { size, grains, sides, flow, angle_deg, trapping, is_heavy: number % 3 == 1 }
 }
 
 fn polygon([x, y]: [f64; 2], radius: f64, corners: usize, turn: f64, rng: &mut ChaCha8Rng) -> Grain {

@@ -25,6 +25,7 @@ mod drawings_network;
 mod dynamic;
 mod films;
 mod generated;
+mod gravity;
 mod invariants;
 mod kinds_of_networks;
 mod mask_images;

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use meniscus_case::FluidPhase;
 use meniscus_core::math::Vec2;
 use meniscus_geometry::Geometry;
 use meniscus_geometry::spec::{Capsule, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
@@ -11,6 +12,7 @@ use meniscus_network::conductance::resistances;
 use meniscus_network::displacement::{Conditions, CornerFilms, Displacement, FilmPaths, Phase};
 use meniscus_network::extract;
 use meniscus_network::graph::{Network, Pores};
+use meniscus_network::gravity::Gravity;
 use rayon::prelude::*;
 
 use crate::generated::{Grain, Pairs, Scene, drawing, scene};
@@ -105,6 +107,20 @@ struct Outcome {
     steps: Vec<(f64, f64)>,
 }
 
+/// Gravity along the axes that are not periodic.
+fn gravity(scene: &Scene, motion: &Motion) -> Gravity {
+    let along = |axis: usize| {
+        if scene.sides[axis] == Pairs::Periodic { 0.0 } else { [3.0, -4.0][axis] / scene.size[0].powi(2) }
+    };
+    let [here, there] = [[0.0; 2], [0, 1].map(along)].map(|x| Vec2::from(motion.point(scene.size, x)));
+    Gravity {
+        gradient: (there - here) / motion.scale.powi(3),
+        reference: here,
+        invading: FluidPhase::NonWetting,
+        depth: None,
+    }
+}
+
 impl Outcome {
     fn new(scene: &Scene, motion: &Motion, network: &Network) -> Self {
         // Films part far below the bursts of their throats.
@@ -125,6 +141,7 @@ impl Outcome {
                     3 => CornerFilms::Drain(paths(Some(vec![true; scene.grains.len() + 4]))),
                     _ => CornerFilms::Absent,
                 },
+                gravity: scene.is_heavy.then(|| gravity(scene, motion)),
                 ..Conditions::new(vec![scene.angle_deg.to_radians(); scene.grains.len() + 4])
             }
         };
@@ -288,7 +305,7 @@ fn three_discs_drain_like_their_mirror_image() {
     for angle_deg in [0.0, 5.0, 20.0, 40.0] {
         let grains = discs.map(|(center, radius)| Grain::Disc(center, radius)).to_vec();
         let sides = [Pairs::Open, Pairs::Walls];
-        let scene = Scene { size: [1.0, 0.8], grains, sides, flow: 0, angle_deg, trapping: true };
+        let scene = Scene { size: [1.0, 0.8], grains, sides, flow: 0, angle_deg, trapping: true, is_heavy: false };
         let found = failures_of(&scene);
         assert!(found.is_empty(), "{found:?}");
     }
@@ -297,8 +314,15 @@ fn three_discs_drain_like_their_mirror_image() {
 /// Asserts that discs have a network, the same however they lie.
 fn has_network(size: [f64; 2], discs: &[[f64; 3]], sides: [Pairs; 2]) -> Outcome {
     let grains = discs.iter().map(|&[x, y, r]| Grain::Disc([x, y], r)).collect();
-    let scene =
-        Scene { size, grains, sides, flow: usize::from(sides[0] != Pairs::Open), angle_deg: 0.0, trapping: true };
+    let scene = Scene {
+        size,
+        grains,
+        sides,
+        flow: usize::from(sides[0] != Pairs::Open),
+        angle_deg: 0.0,
+        trapping: true,
+        is_heavy: false,
+    };
     let found = failures_of(&scene);
     assert!(found.is_empty(), "{found:?}");
     scene.outcome(&STILL).unwrap()
@@ -314,7 +338,7 @@ fn a_grain_that_is_given_at_both_periodic_sides_counts_once() {
         let scene = |copies: &[([f64; 2], f64)]| {
             let discs = copies.iter().chain(&others);
             let grains = discs.map(|&(center, radius)| Grain::Disc(center, radius)).collect();
-            Scene { size: [1.0, 0.8], grains, sides, flow: 0, angle_deg: 20.0, trapping: true }
+            Scene { size: [1.0, 0.8], grains, sides, flow: 0, angle_deg: 20.0, trapping: true, is_heavy: false }
         };
         let [once, twice] = [&copies[..1], &copies].map(|copies| {
             let network = extract(&scene(copies).geometry(&STILL), [true, true, false, false]).unwrap();

@@ -3,17 +3,24 @@
 //! They coalesce where their contacts meet on the wall, or earlier, off the wall, where both bulge and the arcs touch first: a pocket of the defending phase
 //! remains on the wall behind that point.
 
+use crate::interface::head::Head;
 use crate::interface::menisci::meniscus::Meniscus;
 use crate::interface::menisci::passage::Passage;
 
-/// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a common wall \[CieplakRobbins1988\]. The left wall of `a`,
-/// beyond its chord, is the right wall of `b` traversed in the opposite direction. `shared` is the length of that wall between both chords in m. Both passages
-/// use the same coordinates.
-pub fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64> {
-    let (from_a, from_b) = (a.lowest()?.curvature, b.lowest()?.curvature);
-    let low = from_a.max(from_b);
-    let high = up_to.min(a.burst()?.curvature).min(b.burst()?.curvature);
-    let gap = |k: f64| match (a.at(k), b.at(k)) {
+/// The smallest applied curvature, at most `up_to` (1/m), at which two menisci, each with the head at its height, meet that advance along a common wall
+/// \[CieplakRobbins1988\]. The left wall of `a`, beyond its chord, is the right wall of `b` traversed in the opposite direction. `shared` is the length of that
+/// wall between both chords in m. Both passages use the same coordinates.
+pub fn overlap((a, head_a): (&Passage, Head), (b, head_b): (&Passage, Head), shared: f64, up_to: f64) -> Option<f64> {
+    let range = |passage: &Passage| Some([passage.lowest()?.curvature, passage.burst()?.curvature]);
+    let ([from_a, burst_a], [from_b, burst_b]) = (range(a)?, range(b)?);
+    let low = head_a.applied(from_a).max(head_b.applied(from_b));
+    let high = up_to.min(head_a.applied(burst_a)).min(head_b.applied(burst_b));
+    // Within the range of each by rounding too.
+    let (of_a, of_b) = (
+        |k: f64| a.at(head_a.local(k).min(burst_a).max(from_a)),
+        |k: f64| b.at(head_b.local(k).min(burst_b).max(from_b)),
+    );
+    let gap = |k: f64| match (of_a(k), of_b(k)) {
         (Some(one), Some(other)) => gap((a, &one), (b, &other), shared),
         _ => f64::NEG_INFINITY,
     };
@@ -57,7 +64,7 @@ fn first_met(gap: impl Fn(f64) -> f64, open: (f64, f64), met: (f64, f64)) -> f64
 }
 
 /// The dimensionless gap between two menisci, at most 0 where they have met: between their contacts over the length of the common wall, or between their arcs
-/// over the radius. Arcs meet ahead of both throats: a meniscus far behind its own throat may reach around the
+/// over the mean radius. Arcs meet ahead of both throats: a meniscus far behind its own throat may reach around the
 /// common wall to the other one, in the invading phase.
 fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
     // Two contacts pinned at the same edge have met, whatever the rounding of their arc lengths.
@@ -67,7 +74,11 @@ fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
         return contacts;
     }
     let arcs = match (a.1.center(), b.1.center()) {
-        (Some(one), Some(other)) if a.1.curvature > 0.0 => (one - other).norm() * a.1.curvature - 2.0,
+        (Some(one), Some(other)) if a.1.curvature > 0.0 && b.1.curvature > 0.0 => {
+            let [k, l] = [a.1.curvature, b.1.curvature];
+            let mean = if (k - l).abs() <= ROUNDING * k { k } else { 2.0 * k * l / (k + l) };
+            (one - other).norm() * mean - 2.0
+        }
         _ => f64::INFINITY,
     };
     let have_met = a.1.meetings(b.1).into_iter().flatten().any(|x| a.0.is_ahead(x) && b.0.is_ahead(x));

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::{Cell, Random, relative};
 use crate::curve::{Curve, cross};
+use crate::interface::head::Head;
 use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use meniscus_core::math::Vec2;
 
@@ -79,7 +80,7 @@ fn neighbors_overlap_where_a_dense_scan_sees_it() {
         let (from, to) =
             (a.left().parts[a.left().behind].curve.point(0.0), b.right().parts[b.right().behind].curve.point(1.0));
         let shared = length_between(&cell.surface(1), from, to);
-        let found = overlap(&a, &b, shared, up_to);
+        let found = overlap((&a, Head::default()), (&b, Head::default()), shared, up_to);
         let n = 150;
         let at = |i: usize| low + (up_to - low) * i as f64 / n as f64;
         let have_met = |k: f64| {
@@ -152,7 +153,7 @@ fn a_flat_meniscus_reaches_the_next_row_of_a_hexagonal_pack_at_the_porosity_that
 fn wetting_menisci_of_one_cell_meet_in_the_middle_of_the_shared_disc() {
     for l in [2.1, 2.3, 2.6_f64] {
         let (below, beside, next) = triangle(l, PI);
-        let k = overlap(&below, &beside, PI / 3.0, 10.0).unwrap();
+        let k = overlap((&below, Head::default()), (&beside, Head::default()), PI / 3.0, 10.0).unwrap();
         // At 180 degrees a meniscus is tangent to its discs. Contacts 30 degrees from both chords belong to the circle about the middle of the cell that
         // touches all three discs: the last of the defending phase.
         let exact = 1.0 / (1.0 - l / 3_f64.sqrt());
