@@ -68,6 +68,11 @@ groups! {
         // Standard deviation over mean of the distance of the interface from the center
         "radius-scatter-ratio",
     ],
+    /// Speed of what should not move about a drop.
+    pub parasitic_currents: [
+        // Median over the records of the last half of the largest speed in both fluids relative to their mean velocity
+        "parasitic-speed-m-per-s",
+    ],
     /// Velocity error against plane Poiseuille flow.
     pub poiseuille: [
         // Relative L2 norm of the velocity error; the exact velocity includes start-up and slip
@@ -119,7 +124,8 @@ groups! {
     ],
     /// Amplitude of a standing wave against the linear viscous solution.
     pub capillary_wave: [
-        // Two equal fluids: root mean square error of the amplitude over all records, over the first amplitude
+        // Root mean square error of the amplitude over all records, over the first amplitude; exact for infinitely deep fluids, or in a box with `symmetry` at the
+        // bottom and at the top
         "wave-rms-error",
     ],
     /// Height, speed and roundness of a bubble, which is the wetting phase.

@@ -26,6 +26,7 @@ mod layered_poiseuille;
 mod moments;
 mod moving_drop;
 mod oscillating_drop;
+mod parasitic_currents;
 mod poiseuille;
 mod rising_bubble;
 mod series;
@@ -45,6 +46,7 @@ pub fn requested_groups(set: &MeasureSet) -> Vec<Group> {
     let all = [
         (set.sessile_drop, Group::with_columns(sessile_drop::columns, sessile_drop::measures)),
         (set.laplace_drop, Group::of(laplace_drop::measures)),
+        (set.parasitic_currents, Group::of(parasitic_currents::measures)),
         (set.poiseuille, Group::of(poiseuille::measures)),
         (set.taylor_green, Group::of(taylor_green::measures)),
         (set.capillary_bridge, Group::of(capillary_bridge::measures)),

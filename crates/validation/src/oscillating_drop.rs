@@ -47,7 +47,7 @@ impl OscillatingDrop {
     ///
     /// Its Laplace transform is 1/(s + w0² (1 - 2 n I_n K_n)/s).
     pub(crate) fn elongation(&self, time: f64) -> f64 {
-        if time <= 0.0 { 1.0 } else { inverse_laplace(|s| (s + self.stiffness(s) / s).inv(), time) }
+        if time <= 0.0 { 1.0 } else { inverse_laplace(|s| (s + self.stiffness(s) / s).inv(), time, 0.0) }
     }
 }
 

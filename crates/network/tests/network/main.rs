@@ -28,6 +28,7 @@ mod generated;
 mod gravity;
 mod invariants;
 mod kinds_of_networks;
+mod lattice;
 mod mask_images;
 mod motion;
 mod packs;
