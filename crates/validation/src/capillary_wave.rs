@@ -74,11 +74,31 @@ impl CapillaryWave {
         let ([e, f], [g, h]) = (normal(&self.layers[0], one), normal(&self.layers[1], other));
         let (zero, unit) = (real(0.0), real(1.0));
         let system = Matrix5::new(
-            unit, unit, -unit, -unit, zero, // v
-            one.1, one.2, other.1, other.2, zero, // ∂v/∂y
-            a, b, -c, -d, zero, // shear stress
-            e, f, g, h, real(self.tension * k * k), // normal stress
-            -unit, -unit, zero, zero, s, // the interface moves with the fluid
+            unit,
+            unit,
+            -unit,
+            -unit,
+            zero, // v
+            one.1,
+            one.2,
+            other.1,
+            other.2,
+            zero, // ∂v/∂y
+            a,
+            b,
+            -c,
+            -d,
+            zero, // shear stress
+            e,
+            f,
+            g,
+            h,
+            real(self.tension * k * k), // normal stress
+            -unit,
+            -unit,
+            zero,
+            zero,
+            s, // the interface moves with the fluid
         );
         let right = Vector5::new(zero, zero, zero, zero, unit);
         system.lu().solve(&right).map_or(real(f64::NAN), |solution| solution[4])
@@ -125,8 +145,9 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
     let squares: f64 = times.iter().zip(&values).map(|(&t, a)| (a / start - wave.amplitude(t)).powi(2)).sum();
     let error = (squares / times.len() as f64).sqrt();
     let depth = if slips { "between slip walls" } else { "of infinitely deep fluids" };
-    let method =
-        format!("root mean square over the records of amplitude over first amplitude less the linear viscous solution {depth}");
+    let method = format!(
+        "root mean square over the records of amplitude over first amplitude less the linear viscous solution {depth}"
+    );
     vec![measure("wave-rms-error", error, "").by(method)]
 }
 
@@ -175,7 +196,11 @@ mod tests {
             let zero = |mut low: f64, mut high: f64| {
                 for _ in 0..40 {
                     let middle = 0.5 * (low + high);
-                    if wave.amplitude(middle).signum() == wave.amplitude(low).signum() { low = middle } else { high = middle }
+                    if wave.amplitude(middle).signum() == wave.amplitude(low).signum() {
+                        low = middle
+                    } else {
+                        high = middle
+                    }
                 }
                 low
             };

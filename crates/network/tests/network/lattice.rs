@@ -34,15 +34,30 @@ fn in_closed_form(r: f64, deg: f64) -> [f64; 2] {
 #[test]
 fn a_flat_front_in_a_square_lattice_meets_or_bursts_as_the_closed_form_says() {
     for r in [0.3, 0.35, 0.4] {
-        let transition = (0.5 / r).atan().to_degrees();
-        for deg in [10.0, 30.0, 45.0, transition - 3.0, transition - 0.1, transition + 0.1, transition + 3.0, 90.0, 120.0, 150.0] {
+        let transition = f64::atan(0.5 / r).to_degrees();
+        for deg in [
+            10.0,
+            30.0,
+            45.0,
+            transition - 3.0,
+            transition - 0.1,
+            transition + 0.1,
+            transition + 3.0,
+            90.0,
+            120.0,
+            150.0,
+        ] {
             let [burst, overlap] = in_closed_form(r, deg);
             let all = events(r, deg);
             let first = &all[0];
             let is_compact = deg < transition;
             let (kind, curvature) = if is_compact { (EventKind::Overlap, overlap) } else { (EventKind::Burst, burst) };
             assert_eq!(first.kind, kind, "R {r}, {deg} degrees");
-            assert!((first.curvature - curvature).abs() < 1e-9, "R {r}, {deg} degrees: {} {curvature}", first.curvature);
+            assert!(
+                (first.curvature - curvature).abs() < 1e-9,
+                "R {r}, {deg} degrees: {} {curvature}",
+                first.curvature
+            );
             // All rows are alike.
             assert!(all.iter().all(|event| event.applied <= curvature + 1e-9), "R {r}, {deg} degrees");
         }
@@ -58,7 +73,8 @@ fn in_a_dense_lattice_menisci_touch_the_next_row_in_a_window_of_angles() {
     let a = r * (1.0 + cos);
     let [second, first, constant] = [a * a - 1.0, 2.0 * r * cos - a, 0.5 - r * r];
     let root = (first * first - 4.0 * second * constant).sqrt();
-    let radius = [(-first + root) / (2.0 * second), (-first - root) / (2.0 * second)].into_iter().find(|x| *x > 0.0).unwrap();
+    let radius =
+        [(-first + root) / (2.0 * second), (-first - root) / (2.0 * second)].into_iter().find(|x| *x > 0.0).unwrap();
     let found = &events(r, deg)[0];
     assert_eq!(found.kind, EventKind::Touch);
     assert!((found.curvature - 1.0 / radius).abs() < 1e-9, "{} {}", found.curvature, 1.0 / radius);
