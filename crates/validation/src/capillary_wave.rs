@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(wave.amplitude(0.0), 1.0);
     }
 
-    /// Zeros of the amplitude of a wave between water and air, [BoschBenchmark2022]: 1012.4/s for infinitely deep fluids; between slip walls at half a wavelength
+    /// Zeros of the amplitude of a wave between water and air, [Prosperetti1981]: 1012.4/s for infinitely deep fluids; between slip walls at half a wavelength
     /// the frequency is lower by the root of tanh(pi).
     #[test]
     fn a_wave_between_water_and_air_has_the_frequency_of_its_box() {
