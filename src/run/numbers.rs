@@ -1,9 +1,9 @@
 //! The dimensionless numbers of a case and the limits of its time step, each with its formula.
 //!
 //! With rho, mu of the wetting phase, sigma the tension, L the length that the case gives, else the shorter of the width of the narrowest throat and the square
-//! root of the area of a drop or bubble, else the shorter side of the domain, and U a speed: Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w
-//! - rho_n| g L²/sigma (rho_w alone in single-phase flow), La = sigma rho L/mu², Oh = La^(-1/2). A displacement has its viscosity ratio M and the capillary number of its inflow,
-//! in a network also a Bond number with the distance between pores.
+//! root of the area of a drop or bubble, else the shorter side of the domain, and U a speed: Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma,
+//! Bo = |rho_w - rho_n| g L²/sigma (rho_w alone in single-phase flow), La = sigma rho L/mu², Oh = La^(-1/2). A displacement has its viscosity ratio M and the
+//! capillary number of its inflow, in a network also a Bond number with the distance between pores.
 
 use serde::Serialize;
 

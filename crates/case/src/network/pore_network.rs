@@ -71,10 +71,9 @@ pub(crate) fn network(
     let none = &mut RawPhases::default();
     let phases = raw.phases.as_mut().unwrap_or(none);
     let given = raw.interface.as_ref().and_then(|interface| interface.tension);
-    if raw.inlet.is_some() || raw.interface.is_some() || raw.wetting.is_some() {
-        if let Some(tension) = tension(checker, "network.interface", phases, given) {
-            raw.interface.get_or_insert_default().tension = Some(tension);
-        }
+    let matters = raw.inlet.is_some() || raw.interface.is_some() || raw.wetting.is_some();
+    if matters && let Some(tension) = tension(checker, "network.interface", phases, given) {
+        raw.interface.get_or_insert_default().tension = Some(tension);
     }
     let [wetting, non_wetting] =
         [("wetting", &mut phases.wetting), ("non-wetting", &mut phases.non_wetting)].map(|(name, raw)| match raw {
