@@ -14,7 +14,7 @@ import math
 from collections import defaultdict
 from pathlib import Path
 
-OTHERS = Path(__file__).parent.parent / "docs/validation/results/public-benchmark.csv"
+OTHERS = Path(__file__).parent / "public-benchmark.csv"
 OURS = "**meniscus**"
 FLUIDS = {"water-air": "water and air", "gearoil-air": "gear oil and air", "oil_novec7500-water": "Novec 7500 and water"}
 CELLS = (32, 64, 128)
