@@ -146,10 +146,13 @@ fn of_inflow(case: &Case, sph: &Sph, inflow: Option<f64>) -> Vec<Number> {
     }];
     let given = sph.open.iter().enumerate().filter_map(|(number, open)| Some((number, (*open)?)));
     let inlet = given.filter(|(_, open)| !matches!(open.drive, Drive::Pressure(_))).collect::<Vec<_>>();
-    if let ([(number, open)], Some(inflow)) = (&inlet[..], inflow) {
+    // Without a given phase, that which the side had at first enters.
+    if let ([(number, open)], Some(inflow)) = (&inlet[..], inflow)
+        && let Some(is_wetting) = open.enters_wetting
+    {
         let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
         let (width, tension) = (size[1 - number / 2], sph.tension);
-        let viscosity = if open.enters_wetting == Some(false) { other.viscosity } else { sph.wetting.viscosity };
+        let viscosity = if is_wetting { sph.wetting.viscosity } else { other.viscosity };
         let asked = match open.drive {
             Drive::Pressure(_) => None,
             Drive::Velocity(speed, _) => Some(speed.abs()),
@@ -172,8 +175,8 @@ fn of_network(case: &Case, network: &PoreNetwork, measured: impl Fn(&str) -> Opt
     };
     let mut all = Vec::new();
     if let (Some(wetting), Some(other)) = (network.wetting, network.non_wetting) {
-        let invading = [wetting, other][usize::from(displacement.process != Process::Imbibition)].viscosity;
-        let displaced = [other, wetting][usize::from(displacement.process != Process::Imbibition)].viscosity;
+        let pair = [wetting.viscosity, other.viscosity];
+        let [invading, displaced] = if displacement.process == Process::Imbibition { pair } else { [pair[1], pair[0]] };
         let formula = "viscosity of the invading phase / that of the displaced one";
         all.push(Number { symbol: "M", value: invading / displaced, asked: None, formula });
         let inlet = network.sides.each().iter().position(|&side| side == Side::Inlet);

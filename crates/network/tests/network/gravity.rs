@@ -13,6 +13,7 @@ use meniscus_network::extract;
 use meniscus_network::graph::{Network, Pores};
 use meniscus_network::gravity::Gravity;
 
+use crate::cases::{loaded, measures, to_the_end};
 use crate::scenes::{TOP_BOTTOM, disc, grains};
 
 const BOTTOM: [bool; 4] = [false, false, true, false];
@@ -186,4 +187,49 @@ fn a_front_that_falls_is_one_that_rises_upside_down() {
     let (one, other) = (applied(up), applied(shifted));
     assert_eq!(one.len(), other.len());
     assert!(one.iter().zip(&other).all(|(one, other)| (one - 5.0 - other).abs() < 1e-9));
+}
+
+const GANGLION: &str = r#"format = 1
+title = "A ganglion between two throats"
+[geometry]
+min = [0.0, 0.0]
+max = [2.2e-3, 4.0e-3]
+shapes = [
+  { disc = { center = [1.0e-3, 0.0], radius = 3.0e-4 } },
+  { disc = { center = [1.0e-3, 4.0e-3], radius = 3.0e-4 } },
+  { capsule = { ends = [[1.0e-3, 1.0e-3], [1.0e-3, 3.0e-3]], radius = 3.0e-4 } },
+  { rectangle = { center = [1.65e-3, 1.25e-4], size = [1.1e-3, 2.5e-4] } },
+  { rectangle = { center = [1.65e-3, 3.875e-3], size = [1.1e-3, 2.5e-4] } },
+]
+[network]
+inlet = "bottom"
+outlet = "top"
+[network.phases.wetting]
+density = 1000.0
+viscosity = 1.0e-3
+[network.phases.non-wetting]
+density = 1.0
+viscosity = 1.0e-5
+[network.interface]
+tension = 0.05
+[network.wetting.young]
+contact-angle-deg = 0.0
+"#;
+
+/// What is trapped below right has a slit of .9 mm at its top, 1.5 mm above a throat at its side. Air enters the slit from 2/.9 per mm on, and water leaves the
+/// throat, between discs that end at their widest place at the edge of the domain, once its meniscus is flat.
+#[test]
+fn a_trapped_ganglion_would_move_where_its_head_exceeds_what_its_throats_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    std::fs::write(&path, GANGLION).unwrap();
+    let (tension, difference) = (0.05, 999.0);
+    let exact = 2.0 / 9e-4 / 1.5e-3 * tension / difference;
+    for (share, moves) in [(0.5, false), (0.9995, false), (1.0005, true), (1.5, true)] {
+        let found =
+            measures(to_the_end(&loaded(&path, &[&format!("network.gravity=[0.0, {}]", -share * exact)])).as_ref());
+        let (trapped, movable) = (found["trapped-saturation"], found["movable-trapped-saturation"]);
+        assert!(trapped > 0.2);
+        assert_eq!(movable, if moves { trapped } else { 0.0 }, "{share}");
+    }
 }
