@@ -119,8 +119,7 @@ impl Displacement {
             return Some(Advance { kind, curvature, fronts: ((gate, to), None), fills, candidate });
         };
         let neighbor = self.neighbor(&self.mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front)?;
-        let joined = self.joined_event(&self.mesh, (gate, to), hand, &neighbor);
-        let curvature = curvature.max(joined);
+        let (curvature, _) = self.merged_event(&self.mesh, ((gate, to), hand), &neighbor, curvature);
         Some(Advance { kind, curvature, fronts: ((gate, to), Some(front)), fills: neighbor.passed, candidate })
     }
 

@@ -4,7 +4,7 @@ use super::event::{Candidate, EventKind};
 use super::loops::Loop;
 use super::mesh::{FrontId, Mesh};
 use super::progress::{Displacement, Front};
-use super::walls::{Sides, gate_walls, is_same};
+use super::walls::{Sides, gate_walls};
 use crate::graph::WallPiece;
 use meniscus_case::network::Events;
 use meniscus_core::math::Vec2;
@@ -20,7 +20,7 @@ pub(super) struct Neighbor {
     /// Its gate and the end at which it enters.
     pub(crate) front: FrontId,
     /// Length of wall between both gates in m.
-    shared: f64,
+    pub(super) shared: f64,
     /// Shift in m from its frame to that of the meniscus of which it is the neighbor.
     pub(crate) offset: Vec2,
     /// The elements in between.
@@ -150,36 +150,5 @@ impl Displacement {
             wall = if hand == Hand::Left { next(index, twin) } else { twin };
         }
         None
-    }
-
-    /// Applied curvature in 1/m at the burst or touch of the meniscus into which two neighbors merge, between the outer walls of both \[CieplakRobbins1988\].
-    /// Within one element it advances at once.
-    pub(super) fn joined_event(&self, mesh: &Mesh, front: FrontId, hand: Hand, neighbor: &Neighbor) -> f64 {
-        if neighbor.passed.len() < 2 {
-            return f64::NEG_INFINITY;
-        }
-        let (passage, obstacles) = self.joined_passage(mesh, front, hand, neighbor);
-        let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
-        self.head_between(mesh, [front.0, neighbor.front.0]).applied(passage.touch(&obstacles, burst).unwrap_or(burst))
-    }
-
-    /// The passage of the meniscus into which two neighbors merge, and the walls ahead of it.
-    pub(super) fn joined_passage(
-        &self,
-        mesh: &Mesh,
-        front: FrontId,
-        hand: Hand,
-        neighbor: &Neighbor,
-    ) -> (Passage, Vec<Curve>) {
-        let (one, mut obstacles) = self.passage(mesh, front, Vec2::zeros());
-        let (other, beyond) = self.passage(mesh, neighbor.front, neighbor.offset);
-        obstacles.extend(beyond);
-        let (left, right) = if hand == Hand::Left { (&other, &one) } else { (&one, &other) };
-        let own = |curve: &Curve| {
-            let mut parts = left.left().parts.iter().chain(&right.right().parts);
-            parts.any(|part| part.curve == *curve || is_same(&part.curve, curve))
-        };
-        obstacles.retain(|curve| !own(curve));
-        (Passage::new(left.left().clone(), right.right().clone()), obstacles)
     }
 }

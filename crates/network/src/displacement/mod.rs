@@ -4,11 +4,11 @@
 //! a wall ahead (touch), or meets the meniscus in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first.
 //! Events of equal curvature are simultaneous: all fill before trapping and new menisci are determined. An event fills the whole element ahead. Two menisci
 //! that meet merge into one between their outer walls: within one element they fill it; if a grain ahead separates several elements, the merged meniscus fills
-//! all of them when it bursts or touches. Pressures are given as curvatures, (p_invading − p_defending)/σ.
+//! all of them when it bursts or touches, or meets its own neighbors until none is left. Pressures are given as curvatures, (p_invading − p_defending)/σ.
 //!
 //! Corner films of a chip let the wetting phase out and in along the walls (`rings`), and close throats when they meet (`snap_off`).
 //!
-//! Left out: areas swept by menisci between events, overlaps of a merged meniscus with a third one.
+//! Left out: areas swept by menisci between events.
 
 mod conditions;
 mod connected;
@@ -18,6 +18,7 @@ mod event;
 mod fronts;
 mod ganglia;
 mod loops;
+mod merged;
 mod mesh;
 mod outflow;
 mod outline;

@@ -47,16 +47,12 @@ impl Displacement {
             // Another meniscus may have formed in between.
             let neighbor = self.neighbor(mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front);
             let Some(neighbor) = neighbor else { continue };
-            let waits_until = if candidate.is_joined {
-                candidate.curvature
-            } else {
-                self.joined_event(mesh, (gate, to), hand, &neighbor)
-            };
-            if waits_until > candidate.curvature {
-                self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
+            let (event, filled) = self.merged_event(mesh, ((gate, to), hand), &neighbor, candidate.curvature);
+            if event > candidate.curvature {
+                self.queue.push(Candidate { curvature: event, is_joined: true, ..candidate });
                 continue;
             }
-            return Some((candidate, neighbor.passed));
+            return Some((candidate, filled));
         }
     }
 

@@ -13,6 +13,7 @@ use super::conditions::Conditions;
 use super::event::{Candidate, EventKind};
 use super::fronts::Neighbor;
 use super::loops::GateId;
+use super::merged::Merged;
 use super::mesh::{FrontId, Gate};
 use super::progress::{Displacement, Division};
 use super::wall_chains::{Side, WallChains};
@@ -216,7 +217,7 @@ impl Displacement {
             }
             let neighbor = self.neighbor(&self.mesh, one, hand).filter(|neighbor| neighbor.front == other);
             if let Some(neighbor) = neighbor {
-                let (passage, _) = self.joined_passage(&self.mesh, one, hand, &neighbor);
+                let (passage, _) = self.merged_passage(&self.mesh, &Merged::of(one, hand, &neighbor));
                 pairs.push(Pair { gates: [one, other], passage });
             }
         }

@@ -30,15 +30,23 @@ fn in_closed_form(r: f64, deg: f64) -> [f64; 2] {
     [1.0 / (r * cos + (0.25 - r * r * sin * sin).sqrt()), 2.0 * sin]
 }
 
-/// [CieplakRobbins1990]: menisci meet first, and the front advances row by row, where tan θ < 1/(2 R). Below 20 degrees two menisci that have met wait for the
-/// next row, since a third one that meets them is neglected.
+/// [CieplakRobbins1990]: menisci meet first, and the front advances row by row, where tan θ < 1/(2 R).
 #[test]
 fn a_flat_front_in_a_square_lattice_meets_or_bursts_as_the_closed_form_says() {
     for r in [0.3, 0.35, 0.4] {
         let transition = f64::atan(0.5 / r).to_degrees();
-        for deg in
-            [30.0, 45.0, transition - 3.0, transition - 0.1, transition + 0.1, transition + 3.0, 90.0, 120.0, 150.0]
-        {
+        for deg in [
+            10.0,
+            30.0,
+            45.0,
+            transition - 3.0,
+            transition - 0.1,
+            transition + 0.1,
+            transition + 3.0,
+            90.0,
+            120.0,
+            150.0,
+        ] {
             let [burst, overlap] = in_closed_form(r, deg);
             let all = events(r, deg);
             let first = &all[0];
