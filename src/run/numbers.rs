@@ -179,15 +179,17 @@ fn of_network(case: &Case, network: &PoreNetwork, measured: impl Fn(&str) -> Opt
         let [invading, displaced] = if displacement.process == Process::Imbibition { pair } else { [pair[1], pair[0]] };
         let formula = "viscosity of the invading phase / that of the displaced one";
         all.push(Number { symbol: "M", value: invading / displaced, asked: None, formula });
-        let inlet = network.sides.each().iter().position(|&side| side == Side::Inlet);
-        if let (Some(dynamic), Some(inlet)) = (displacement.dynamic, inlet) {
-            let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
-            let section = size[1 - inlet / 2] * case.depth.unwrap_or(1.0);
+        let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+        let side = network.sides.each().iter().position(|&side| side == Side::Inlet);
+        let around = network.inlet_disc.map(|disc| std::f64::consts::TAU * disc.radius);
+        if let (Some(dynamic), Some(length)) = (displacement.dynamic, side.map(|side| size[1 - side / 2]).or(around)) {
+            let section = length * case.depth.unwrap_or(1.0);
             let asked = match dynamic.drive {
                 InTime::Rate(rate) => Some(invading * rate / (section * interface.tension)),
                 InTime::PressureDrop(_) => None,
             };
-            let formula = "mu U / sigma of the invading phase, U the inflow over the inlet side";
+            let formula =
+                "mu U / sigma of the invading phase, U the inflow over the inlet side, or around the inlet disc";
             all.push(Number { symbol: "Ca", value: measured("capillary-number").unwrap_or(f64::NAN), asked, formula });
         }
     }

@@ -70,7 +70,7 @@ impl NetworkOptions {
         let young = |contact_angle_deg| RawWetting::of(&Wetting::Young(Young { contact_angle_deg }), None);
         RawNetwork {
             inlet: self.inlet,
-            outlet: self.outlet,
+            outlet: self.outlet.map(Into::into),
             sides: Some(RawNetworkSides { left: x, right: x, bottom: y, top: y }),
             interface: tension.map(|tension| RawInterface { tension: Some(tension) }),
             wetting: contact_angle_deg.map(young),

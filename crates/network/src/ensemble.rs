@@ -292,7 +292,7 @@ impl Reference {
 
     /// The moment of the maps.
     pub fn moment(&self) -> &'static str {
-        if self.config.outlet.is_some() { "at breakthrough" } else { "at the end of the first half cycle" }
+        if self.config.has_outlet() { "at breakthrough" } else { "at the end of the first half cycle" }
     }
 
     /// Number of its elements.

@@ -123,10 +123,10 @@ fn film_flow(config: &Configuration, cycles: &Cycles, displaced: f64, holds: &[b
 
 /// With `network.region`, both phases pass the manifolds, which do not count in the saturation.
 fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
-    let ends = [config.inlet, config.outlet];
-    let openings =
-        config.network.openings.iter().filter(|opening| config.region.is_some() && ends.contains(&Some(opening.side)));
-    openings.for_each(|opening| holds[opening.region] = true);
+    if config.region.is_some() {
+        let ends = config.at_inlet().into_iter().zip(config.at_outlet()).map(|(inlet, outlet)| inlet || outlet);
+        holds.iter_mut().zip(ends).for_each(|(holds, is_end)| *holds |= is_end);
+    }
     holds
 }
 

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use super::displacement::{Division, Events};
+use super::displacement::{Division, Events, OpenDisc};
 use super::graph::{Network, Pores};
 use super::model::Derived;
 use super::setup_error::SetupError;
@@ -94,6 +94,15 @@ impl Ground {
     pub(crate) fn division(&self, events: Events) -> Option<&Division> {
         let find = || Division::of(&self.network, &self.pores, events);
         self.is_shared.then(|| self.divisions[usize::from(events == Events::All)].get_or_init(find))
+    }
+
+    /// The regions of which a disc covers a part.
+    pub(crate) fn under(&self, disc: &OpenDisc) -> Vec<usize> {
+        let find = |division: &Division| division.regions_under(disc);
+        match self.division(Events::All) {
+            Some(division) => find(division),
+            None => find(&Division::of(&self.network, &self.pores, Events::All)),
+        }
     }
 
     /// The network at a depth in m.

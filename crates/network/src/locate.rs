@@ -1,6 +1,6 @@
 //! Point location in elements.
 
-use super::displacement::{Element, centroid};
+use super::displacement::{Element, centroid, contains};
 use meniscus_core::math::{Bounds, Vec2};
 
 /// A point within an outline: its centroid if inside, else the middle of the longest segment of a line across it.
@@ -24,13 +24,6 @@ pub(super) fn inner_point(outline: &[Vec2]) -> Vec2 {
 
 fn edges(outline: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
     (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
-}
-
-/// Whether a point lies within an outline, by the number of edges to its right.
-fn contains(outline: &[Vec2], x: Vec2) -> bool {
-    let to_the_right =
-        |(a, b): &(Vec2, Vec2)| (a.y > x.y) != (b.y > x.y) && x.x < a.x + (b.x - a.x) * (x.y - a.y) / (b.y - a.y);
-    edges(outline).filter(to_the_right).count() % 2 == 1
 }
 
 /// Cells of a regular grid with the elements that overlap them.

@@ -192,7 +192,7 @@ fn replaced(model: &Model) -> Option<Measure> {
 fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     let first = &cycles.half_cycles()[0];
     let (pressure, saturation) = cycles.record.outcomes[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
-    let reached = if config.outlet.is_none() {
+    let reached = if !config.has_outlet() {
         "there is no outlet"
     } else if saturation.is_nan() {
         "the invading phase did not reach the outlet"

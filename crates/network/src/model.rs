@@ -8,8 +8,8 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use super::gravity::Gravity;
-use meniscus_case::Side;
-use meniscus_case::network::FilmModel;
+use meniscus_case::network::{FilmModel, InletDisc};
+use meniscus_case::{SIDES, Side};
 use meniscus_core::math::Bounds;
 use meniscus_core::snapshot::Lines;
 use meniscus_geometry::interface::depth::Depth;
@@ -27,8 +27,12 @@ pub struct Configuration {
     pub periodic: [bool; 2],
     /// The side that is the inlet: left, right, bottom, top are 0 to 3.
     pub inlet: Option<usize>,
-    /// The side that is the outlet.
-    pub outlet: Option<usize>,
+    /// The disc that is the inlet in place of a side.
+    pub inlet_disc: Option<InletDisc>,
+    /// The regions of which it covers a part.
+    pub(crate) inlet_regions: Vec<usize>,
+    /// Whether the left, right, bottom and top side is an outlet.
+    pub outlet: [bool; 4],
     /// The walls, for pictures.
     pub outline: Arc<Lines<'static>>,
     /// Porosity: pore area over the area of the domain or of its region.
@@ -68,6 +72,39 @@ impl Configuration {
     /// Floor and lid with the angles for an invading phase; `None` in the plane.
     pub fn depth_for(&self, invading: FluidPhase) -> Option<Depth> {
         self.depth.map(|[drainage, imbibition]| if invading == FluidPhase::Wetting { imbibition } else { drainage })
+    }
+
+    /// Whether there is an outlet.
+    pub(crate) fn has_outlet(&self) -> bool {
+        self.outlet.contains(&true)
+    }
+
+    /// Whether each region opens at the inlet.
+    pub(crate) fn at_inlet(&self) -> Vec<bool> {
+        let mut opens = self.opens_at(|side| Some(side) == self.inlet);
+        self.inlet_regions.iter().for_each(|&region| opens[region] = true);
+        opens
+    }
+
+    /// Whether each region opens at the outlet.
+    pub(crate) fn at_outlet(&self) -> Vec<bool> {
+        self.opens_at(|side| self.outlet[side])
+    }
+
+    fn opens_at(&self, is_open: impl Fn(usize) -> bool) -> Vec<bool> {
+        let mut opens = vec![false; self.network.regions.len()];
+        let openings = self.network.openings.iter().filter(|opening| is_open(opening.side));
+        openings.for_each(|opening| opens[opening.region] = true);
+        opens
+    }
+
+    /// The inlet and the outlet by name.
+    pub(crate) fn ends(&self) -> [Option<String>; 2] {
+        let disc = self.inlet_disc.map(|_| "disc".to_owned());
+        let outlet: Vec<&str> =
+            SIDES.into_iter().zip(self.outlet).filter(|(_, is)| *is).map(|(name, _)| name).collect();
+        let inlet = self.inlet.map(|side| SIDES[side].to_owned());
+        [inlet.or(disc), self.has_outlet().then(|| outlet.join(", "))]
     }
 
     /// The length of a period along x and y in m; `None` if not periodic.

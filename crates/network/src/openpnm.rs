@@ -100,7 +100,7 @@ fn pore_columns(config: &Configuration) -> Vec<Column> {
     let label = |name, holds: &dyn Fn(&Opening) -> bool| flags(name, inner().map(|_| false).chain(outer().map(holds)));
     columns.push(label("pore.boundary", &|_| true));
     columns.push(label("pore.inlet", &|opening| Some(opening.side) == config.inlet));
-    columns.push(label("pore.outlet", &|opening| Some(opening.side) == config.outlet));
+    columns.push(label("pore.outlet", &|opening| config.outlet[opening.side]));
     for (side, name) in ["pore.left", "pore.right", "pore.bottom", "pore.top"].into_iter().enumerate().take(SIDES.len())
     {
         columns.push(label(name, &|opening| opening.side == side));

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::angles::{angles, depth_for, film_terms};
 use super::cycles::{Cycles, FluidPhase, HalfCycle};
-use super::displacement::{Beginning, Conditions, Displacement, Element, MeasuredBurst};
+use super::displacement::{Beginning, Conditions, Displacement, Element, MeasuredBurst, OpenDisc};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{Drive, Dynamic, Terms};
 use super::graph::Network;
@@ -59,6 +59,9 @@ pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>
         .filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted.sum > 0.0)))
     {
         return Err(SetupError::EmptyRegion { min: region.min, max: region.max });
+    }
+    if let Some(disc) = wanted.inlet_disc.filter(|_| solver.config().inlet_regions.is_empty()) {
+        return Err(SetupError::NoPoreUnderDisc { center: disc.center, radius: disc.radius });
     }
     let found = &solver.config().geometry_hash;
     match wanted.measured.as_ref().map(|measured| &measured.geometry_hash) {
@@ -124,7 +127,9 @@ fn assemble(
         bounds: ground.geometry.bounds(),
         periodic: ground.geometry.periodic(),
         inlet: wanted.sides.each().iter().position(|&side| side == Side::Inlet),
-        outlet: wanted.sides.each().iter().position(|&side| side == Side::Outlet),
+        inlet_disc: wanted.inlet_disc,
+        inlet_regions: wanted.inlet_disc.map_or_else(Vec::new, |disc| ground.under(&OpenDisc::inlet(disc))),
+        outlet: wanted.sides.each().map(|side| side == Side::Outlet),
         outline: Arc::clone(&ground.outline),
         porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / ground.geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
@@ -169,6 +174,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
         // Pores at the inlet that are not full initially are displaced like others.
         inlet: if driven.initial_saturation.is_some() { [false; 4] } else { inlet },
         outlet,
+        disc: wanted.inlet_disc.filter(|_| driven.initial_saturation.is_none()).map(OpenDisc::inlet),
         ..Conditions::new(angles(interface, walls, invading))
     };
     let terms = Terms {
@@ -180,6 +186,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Res
         },
         largest_step: driven.largest_step,
         inlet,
+        inlet_disc: wanted.inlet_disc.map(OpenDisc::inlet),
         outlet,
         depth: config.depth_for(invading).map(|depth| (invading, depth)),
         gravity: config.gravity,
@@ -213,7 +220,9 @@ fn gravity(wanted: &PoreNetwork, network: &Network, bounds: Bounds, invading: Fl
     let (acceleration, interface) = (Vec2::from(wanted.gravity?), wanted.interface.as_ref()?);
     let difference = wanted.non_wetting?.density - wanted.wetting?.density;
     let mut reference = 0.5 * (bounds.min + bounds.max);
-    if let Some(side) = wanted.sides.each().iter().position(|&side| side == Side::Inlet) {
+    if let Some(disc) = wanted.inlet_disc {
+        reference = Vec2::from(disc.center);
+    } else if let Some(side) = wanted.sides.each().iter().position(|&side| side == Side::Inlet) {
         let end = if side.is_multiple_of(2) { bounds.min } else { bounds.max };
         reference[side / 2] = end[side / 2];
     }
@@ -239,6 +248,7 @@ fn half_cycles(wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Vec<
             conditions: Conditions {
                 inlet: open(from),
                 outlet: open(to),
+                disc: wanted.inlet_disc.map(|disc| OpenDisc { is_inlet: from == Side::Inlet, ..OpenDisc::inlet(disc) }),
                 trapping: displacement.trapping,
                 events: displacement.events,
                 largest_curvature: stop.capillary_pressure.map_or(f64::INFINITY, |pressure| sign * in_plane(pressure)),

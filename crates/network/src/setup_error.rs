@@ -63,6 +63,17 @@ pub enum SetupError {
         /// Its upper right corner.
         max: [f64; 2],
     },
+    /// The disc that is the inlet lies within solids.
+    #[error(
+        "no pore lies under the disc at {center:?} m with the radius {radius:e} m, which is the inlet (network.inlet-disc): solids close all of it; \
+         move it, make it larger, or exchange solid and pore (`invert`)"
+    )]
+    NoPoreUnderDisc {
+        /// Its center in m.
+        center: [f64; 2],
+        /// Its radius in m.
+        radius: f64,
+    },
     /// An open side is closed by solids.
     #[error(
         "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
@@ -86,6 +97,7 @@ impl SetupError {
             Self::OtherState { .. } => "network.initial".to_owned(),
             Self::InletTooSmall { .. } => "network.dynamic.initial-saturation".to_owned(),
             Self::EmptyRegion { .. } => "network.region".to_owned(),
+            Self::NoPoreUnderDisc { .. } => "network.inlet-disc".to_owned(),
             Self::NoOpening { role, .. } => format!("network.{role}"),
         }
     }

@@ -5,7 +5,6 @@ use serde::Serialize;
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use meniscus_case::SIDES;
 use meniscus_core::table::Document;
 
 /// The state of one pore.
@@ -75,8 +74,8 @@ struct Description<'a> {
     geometry_hash: String,
     domain_m: [[f64; 2]; 2],
     periodic: [bool; 2],
-    inlet: Option<&'a str>,
-    outlet: Option<&'a str>,
+    inlet: Option<String>,
+    outlet: Option<String>,
     tension_n_per_m: Option<f64>,
     viscosity_pa_s: [Option<f64>; 2],
     pores: usize,
@@ -146,14 +145,15 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
 pub(crate) fn network_json(model: &Model) -> Document {
     let config = &model.config;
     let (network, pores) = (&config.network, &config.pores);
+    let [inlet, outlet] = config.ends();
     let description = Description {
         version: env!("CARGO_PKG_VERSION"),
         persistence: pores.persistence,
         geometry_hash: config.geometry_hash.clone(),
         domain_m: [config.bounds.min.into(), config.bounds.max.into()],
         periodic: config.periodic,
-        inlet: config.inlet.map(|side| SIDES[side]),
-        outlet: config.outlet.map(|side| SIDES[side]),
+        inlet,
+        outlet,
         tension_n_per_m: config.tension,
         viscosity_pa_s: config.viscosities,
         pores: pores.main_region.len(),

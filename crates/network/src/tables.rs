@@ -95,13 +95,11 @@ pub(super) fn openings(config: &Configuration) -> impl Iterator<Item = (&Opening
     config.network.openings.iter().map(|opening| (opening, config.pores.pore_of[opening.region]))
 }
 
-/// Whether pores open at a side.
-fn opens_at(config: &Configuration, side: Option<usize>) -> Vec<bool> {
-    let mut opens = vec![false; config.pores.main_region.len()];
-    for (opening, pore) in openings(config) {
-        opens[pore] |= Some(opening.side) == side;
-    }
-    opens
+/// Whether any region of a pore is one of these.
+fn of_pores(config: &Configuration, regions: &[bool]) -> Vec<bool> {
+    let mut found = vec![false; config.pores.main_region.len()];
+    regions.iter().zip(&config.pores.pore_of).for_each(|(is, &pore)| found[pore] |= is);
+    found
 }
 
 fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
@@ -121,9 +119,9 @@ fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
         // Number of throats and openings, a throat from a pore to itself counting twice
         counts("coordination_number", coordination(config)),
         // Whether it opens at the inlet
-        flags("inlet", opens_at(config, config.inlet)),
+        flags("inlet", of_pores(config, &config.at_inlet())),
         // Whether it opens at the outlet
-        flags("outlet", opens_at(config, config.outlet)),
+        flags("outlet", of_pores(config, &config.at_outlet())),
     ];
     if let Some(depth) = config.network.depth {
         // With [`geometry.depth`](../tutorials/depth.md), after `area_m2`: area times depth

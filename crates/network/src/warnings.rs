@@ -60,26 +60,26 @@ fn odd_depth(config: &Configuration) -> Option<String> {
 
 /// Missing connection from the inlet to the outlet.
 fn disconnected(config: &Configuration) -> Option<String> {
-    let (inlet, outlet) = (config.inlet?, config.outlet?);
-    let network = &config.network;
-    let opens_at = |side: usize| network.openings.iter().filter(move |opening| opening.side == side);
+    let [inlet, outlet] = config.ends();
+    let (inlet, outlet, network) = (inlet?, outlet?, &config.network);
     let mut beside = vec![Vec::new(); network.regions.len()];
     for [one, other] in network.throats.iter().map(|throat| throat.regions) {
         beside[one].push(other);
         beside[other].push(one);
     }
     let mut reached = vec![false; network.regions.len()];
-    let mut open: Vec<usize> = opens_at(inlet).map(|opening| opening.region).collect();
+    let ends = config.at_outlet();
+    let at_inlet = config.at_inlet();
+    let mut open: Vec<usize> = (0..at_inlet.len()).filter(|&region| at_inlet[region]).collect();
     while let Some(region) = open.pop() {
         if !std::mem::replace(&mut reached[region], true) {
             open.extend(&beside[region]);
         }
     }
-    opens_at(outlet).all(|opening| !reached[opening.region]).then(|| {
+    ends.iter().zip(&reached).all(|(is_end, reached)| !(is_end & reached)).then(|| {
         format!(
-            "no path through the pores leads from the inlet ({}) to the outlet ({}): the solids close all of them, so that nothing is displaced \
-             to the outlet; choose other sides, or look at the picture for the shapes that touch",
-            SIDES[inlet], SIDES[outlet]
+            "no path through the pores leads from the inlet ({inlet}) to the outlet ({outlet}): the solids close all of them, so that nothing is displaced \
+             to the outlet; choose other sides, or look at the picture for the shapes that touch"
         )
     })
 }

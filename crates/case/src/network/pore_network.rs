@@ -4,7 +4,7 @@ use super::displacement::{NetworkDisplacement, displacement, refuse_other_sides,
 use super::measured::Measured;
 use super::region::{Region, region};
 use super::state::Start;
-use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawRegion};
+use super::table::{InletDisc, RawNetwork, RawNetworkSide, RawNetworkSides, RawOutlet, RawRegion};
 use crate::fluid::{Fluid, RawPhases, fluid, tension};
 use crate::side::{SIDES, Side, SideName, Sides};
 use crate::wetting::{self, WettingPatch};
@@ -31,6 +31,9 @@ pub struct PoreNetwork {
     pub measured: Option<Measured>,
     /// The displacement; `None` without an inlet.
     pub displacement: Option<NetworkDisplacement>,
+    /// The disc that is the inlet in place of a side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inlet_disc: Option<InletDisc>,
     /// Acceleration of gravity along x and y in m/s²; `None` without gravity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[f64; 2]>,
@@ -69,9 +72,9 @@ pub(crate) fn network(
 ) -> Option<PoreNetwork> {
     let sides = sides(checker, raw);
     let none = &mut RawPhases::default();
+    let matters = raw.has_inlet() || raw.interface.is_some() || raw.wetting.is_some();
     let phases = raw.phases.as_mut().unwrap_or(none);
     let given = raw.interface.as_ref().and_then(|interface| interface.tension);
-    let matters = raw.inlet.is_some() || raw.interface.is_some() || raw.wetting.is_some();
     if matters && let Some(tension) = tension(checker, "network.interface", phases, given) {
         raw.interface.get_or_insert_default().tension = Some(tension);
     }
@@ -88,7 +91,8 @@ pub(crate) fn network(
             "leave it out, or leave out [network.dynamic]",
         );
     }
-    let displacement = if raw.inlet.is_some() {
+    let inlet_disc = inlet_disc(checker, raw, sides.as_ref(), geometry);
+    let displacement = if raw.has_inlet() {
         if let (Some(start), Some(sides)) = (&start, &sides) {
             refuse_other_sides(checker, start, sides);
         }
@@ -113,9 +117,45 @@ pub(crate) fn network(
         persistence: *raw.persistence.get_or_insert(DEFAULT_PERSISTENCE),
         measured: raw.measured_throats.clone(),
         displacement,
+        inlet_disc: inlet_disc?,
         gravity,
         region,
     })
+}
+
+/// The disc that is the inlet, if one is given; the outer option is missing if a mistake was found.
+fn inlet_disc(
+    checker: &mut Checker,
+    raw: &RawNetwork,
+    sides: Option<&Sides>,
+    geometry: Option<&GeometrySpec>,
+) -> Option<Option<InletDisc>> {
+    const KEY: &str = "network.inlet-disc";
+    let Some(given) = raw.inlet_disc.clone() else { return Some(None) };
+    if raw.inlet.is_some() {
+        checker.refuse(KEY, "both a side and a disc are the inlet", "leave out `inlet` or `inlet-disc`");
+    }
+    if sides.is_some_and(|sides| sides.periodic().contains(&true)) {
+        let message = "a disc is the inlet, and the domain is periodic: the phase would come from all sides at once";
+        checker.refuse(KEY, message, "make all sides walls or outlets, or name a side as the inlet");
+    }
+    checker.require::<()>(&format!("{KEY}.center"), given.center.map(|_| ()), "center = [0.0, 0.0] # m");
+    checker.require::<()>(&format!("{KEY}.radius"), given.radius.map(|_| ()), "radius = 1.0e-3 # m");
+    let disc = given.complete()?;
+    let geometry = geometry?;
+    let is_inside = |axis: usize| {
+        let [low, high] = [disc.center[axis] - disc.radius, disc.center[axis] + disc.radius];
+        low >= geometry.min[axis] && high <= geometry.max[axis]
+    };
+    if !(is_inside(0) && is_inside(1)) {
+        let message = format!(
+            "expected a disc inside of the domain from {:?} to {:?} m, found the center {:?} and the radius {:e} m",
+            geometry.min, geometry.max, disc.center, disc.radius
+        );
+        checker.refuse(KEY, message, "move it, or make it smaller");
+        return None;
+    }
+    Some(Some(disc))
 }
 
 /// Gravity, if it acts; it needs the densities of both phases, and sides that are not periodic along it.
@@ -155,8 +195,9 @@ fn sides(checker: &mut Checker, raw: &mut RawNetwork) -> Option<Sides> {
         Some(RawNetworkSide::Periodic) => Side::Periodic,
         Some(RawNetworkSide::Wall) | None => Side::Wall,
     });
-    let open = [("inlet", raw.inlet, Side::Inlet), ("outlet", raw.outlet, Side::Outlet)];
-    for (key, side, kind) in open.into_iter().filter_map(|(key, side, kind)| Some((key, side?.number(), kind))) {
+    let outlet = raw.outlet.and_then(RawOutlet::number);
+    let open = [("inlet", raw.inlet.map(SideName::number), Side::Inlet), ("outlet", outlet, Side::Outlet)];
+    for (key, side, kind) in open.into_iter().filter_map(|(key, side, kind)| Some((key, side?, kind))) {
         if given[side].is_some() {
             checker.refuse(
                 format!("network.sides.{}", SIDES[side]),
@@ -166,7 +207,14 @@ fn sides(checker: &mut Checker, raw: &mut RawNetwork) -> Option<Sides> {
         }
         kinds[side] = kind;
     }
-    if let (Some(inlet), Some(outlet)) = (raw.inlet.map(SideName::number), raw.outlet.map(SideName::number)) {
+    if raw.outlet == Some(RawOutlet::Sides) {
+        if raw.inlet.is_some() {
+            let message = "the outlet is all sides, and the inlet is one of them";
+            checker.refuse("network.outlet", message, "name the opposite side, or give inlet-disc in place of inlet");
+        }
+        (0..4).filter(|&side| given[side].is_none()).for_each(|side| kinds[side] = Side::Outlet);
+    }
+    if let (Some(inlet), Some(outlet)) = (raw.inlet.map(SideName::number), outlet) {
         if inlet == outlet {
             let message = format!("`{}` is both inlet and outlet", SIDES[inlet]);
             checker.refuse("network.outlet", message, format!("take the opposite side, `{}`", SIDES[inlet ^ 1]));
@@ -215,7 +263,7 @@ fn interface(
     geometry: Option<&GeometrySpec>,
 ) -> Option<Option<NetworkInterface>> {
     let tension = raw.interface.as_ref().and_then(|interface| interface.tension);
-    if raw.inlet.is_none() && raw.interface.is_none() && raw.wetting.is_none() {
+    if !raw.has_inlet() && raw.interface.is_none() && raw.wetting.is_none() {
         return Some(None);
     }
     // That of a direct simulation may be 0.

@@ -6,15 +6,17 @@ use super::measured::Measured;
 use crate::fluid::{RawInterface, RawPhases};
 use crate::side::SideName;
 use crate::wetting::RawWetting;
-use meniscus_core::input::tables::{Key, tables, words};
+use meniscus_core::input::tables::{Key, checked_tables, tables, words};
 
 tables! {
     /// A pore network: pores and throats of the geometry, and a displacement through them.
     pub struct RawNetwork {
-        /// Side where the invading phase enters; without it nothing is displaced.
+        /// Side where the invading phase enters; without it and `inlet-disc` nothing is displaced.
         pub inlet: SideName,
-        /// Opposite side where the defending phase leaves; without it none leaves and none is trapped.
-        pub outlet: SideName,
+        /// Disc where the invading phase enters, a hole in the lid, in place of a side: it fills all pores of which the disc covers a part.
+        pub inlet_disc: RawInletDisc,
+        /// Opposite side where the defending phase leaves, with `inlet-disc` any side, or `sides`; without it none leaves and none is trapped.
+        pub outlet: RawOutlet,
         /// The sides that are neither inlet nor outlet (default: walls).
         pub sides: RawNetworkSides,
         /// The fluids; viscosities count for conductances and `dynamic`, densities with `gravity` (default: 1 Pa s).
@@ -105,7 +107,31 @@ tables! {
     }
 }
 
+checked_tables! {
+    /// A disc where the invading phase enters, some of it in the pore space.
+    pub struct RawInletDisc for InletDisc {
+        /// Center in m.
+        pub center: [f64; 2],
+        /// Radius in m.
+        pub radius: f64 => Key::positive("a length in m").example("radius = 1.0e-3 # m"),
+    }
+}
+
 words! {
+    /// Where the defending phase leaves.
+    pub enum RawOutlet {
+        /// x = min.
+        Left,
+        /// x = max.
+        Right,
+        /// y = min.
+        Bottom,
+        /// y = max.
+        Top,
+        /// All sides for which `sides` gives no kind; with `inlet-disc`.
+        Sides,
+    }
+
     /// Kind of a side of a network.
     pub enum RawNetworkSide {
         /// A solid wall with the contact angle of all walls.
@@ -148,5 +174,25 @@ words! {
         All,
         /// Burst only: invasion percolation, for comparison with other programs.
         Burst,
+    }
+}
+
+impl RawNetwork {
+    /// Whether the invading phase has a way in, so that there is a displacement.
+    pub(crate) fn has_inlet(&self) -> bool {
+        self.inlet.is_some() || self.inlet_disc.is_some()
+    }
+}
+
+impl RawOutlet {
+    /// The number of the side; `None`: all of them.
+    pub(crate) fn number(self) -> Option<usize> {
+        (self != Self::Sides).then_some(self as usize)
+    }
+}
+
+impl From<SideName> for RawOutlet {
+    fn from(side: SideName) -> Self {
+        [Self::Left, Self::Right, Self::Bottom, Self::Top][side.number()]
     }
 }

@@ -1,7 +1,8 @@
 //! Conditions of a displacement: contact angles, open sides, and types of events.
 
+use super::outline::holds;
 use crate::gravity::Gravity;
-use meniscus_case::network::{Events, Trapping};
+use meniscus_case::network::{Events, InletDisc, Trapping};
 use meniscus_core::math::Vec2;
 use meniscus_geometry::interface::head::Head;
 
@@ -14,6 +15,8 @@ pub struct Conditions {
     pub inlet: [bool; 4],
     /// Sides through which the defending phase leaves.
     pub outlet: [bool; 4],
+    /// A disc open to a reservoir.
+    pub disc: Option<OpenDisc>,
     /// The trapping rule.
     pub trapping: Trapping,
     /// The types of events.
@@ -26,6 +29,35 @@ pub struct Conditions {
     pub films: CornerFilms,
     /// Gravity; `None`: all menisci are at the applied pressure.
     pub gravity: Option<Gravity>,
+}
+
+/// A disc open to a reservoir, such as a hole in the lid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OpenDisc {
+    /// Center in m.
+    pub center: Vec2,
+    /// Radius in m.
+    pub radius: f64,
+    /// Whether the invading phase enters through it; otherwise the defending phase leaves.
+    pub is_inlet: bool,
+}
+
+impl OpenDisc {
+    /// That of a case, as the inlet.
+    pub fn inlet(disc: InletDisc) -> Self {
+        Self { center: disc.center.into(), radius: disc.radius, is_inlet: true }
+    }
+
+    /// Whether it covers a part of an outline in m.
+    pub(super) fn covers(&self, outline: &[Vec2]) -> bool {
+        let edges = || (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]));
+        let distance = |(a, b): (Vec2, Vec2)| {
+            let along = b - a;
+            let share = ((self.center - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            (a + share * along - self.center).norm()
+        };
+        holds(outline, self.center) || edges().any(|edge| distance(edge) < self.radius)
+    }
 }
 
 /// Effect of corner films of the wetting phase in a chip on a displacement.
@@ -68,6 +100,7 @@ impl Conditions {
             angle,
             inlet: [false; 4],
             outlet: [false; 4],
+            disc: None,
             trapping: Trapping::None,
             events: Events::All,
             largest_curvature: f64::INFINITY,

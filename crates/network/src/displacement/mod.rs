@@ -31,11 +31,11 @@ mod trapping;
 mod wall_chains;
 mod walls;
 
-pub use self::conditions::{Conditions, CornerFilms, FilmPaths, MeasuredBurst};
+pub use self::conditions::{Conditions, CornerFilms, FilmPaths, MeasuredBurst, OpenDisc};
 pub(crate) use self::driven::{Advance, GateFacts};
 pub use self::event::EventKind;
 pub(crate) use self::mesh::FrontId;
-pub(crate) use self::outline::centroid;
+pub(crate) use self::outline::{centroid, contains, holds};
 pub(crate) use self::progress::Division;
 pub use self::progress::{Displacement, Element, Phase};
 pub use self::sequence::Event;

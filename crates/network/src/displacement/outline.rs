@@ -107,6 +107,22 @@ fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
     Some(polygon)
 }
 
+/// Whether a point lies in an element with this outline, which has the pore on its right: outside of one that goes around the grains of a domain whose sides are
+/// all open.
+pub(crate) fn holds(outline: &[Vec2], x: Vec2) -> bool {
+    let edges = (0..outline.len()).map(|k| (outline[k] - x, outline[(k + 1) % outline.len()] - x));
+    let is_around = edges.map(|(a, b)| a.x * b.y - a.y * b.x).sum::<f64>() > 0.0;
+    contains(outline, x) != is_around
+}
+
+/// Whether a point lies within an outline, by the number of edges to its right.
+pub(crate) fn contains(outline: &[Vec2], x: Vec2) -> bool {
+    let to_the_right =
+        |(a, b): &(Vec2, Vec2)| (a.y > x.y) != (b.y > x.y) && x.x < a.x + (b.x - a.x) * (x.y - a.y) / (b.y - a.y);
+    let edges = (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]));
+    edges.filter(to_the_right).count() % 2 == 1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

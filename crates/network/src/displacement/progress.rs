@@ -3,7 +3,7 @@
 use std::collections::{BinaryHeap, VecDeque};
 use std::sync::Arc;
 
-use super::conditions::Conditions;
+use super::conditions::{Conditions, OpenDisc};
 use super::connected::Held;
 use super::event::Candidate;
 use super::mesh::Mesh;
@@ -107,6 +107,28 @@ impl Division {
     }
 }
 
+impl Division {
+    /// The elements of which a disc covers a part, in order.
+    pub(super) fn under(&self, disc: &OpenDisc) -> Vec<usize> {
+        let mut under: Vec<usize> = (0..self.elements.len())
+            .filter(|&index| disc.covers(&self.elements[index].outline))
+            .map(|index| self.mesh.element_of[index])
+            .collect();
+        under.sort_unstable();
+        under.dedup();
+        under
+    }
+
+    /// The regions of which a disc covers a part, in order.
+    pub(crate) fn regions_under(&self, disc: &OpenDisc) -> Vec<usize> {
+        let covered = (0..self.elements.len()).filter(|&index| disc.covers(&self.elements[index].outline));
+        let mut regions: Vec<usize> = covered.map(|index| self.mesh.region_of[index]).collect();
+        regions.sort_unstable();
+        regions.dedup();
+        regions
+    }
+}
+
 impl Displacement {
     /// Invasion of a pore space full of the defending phase \[WilkinsonWillemsen1983\], except elements open at an inlet: openings have no entry pressure.
     pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
@@ -142,12 +164,17 @@ impl Displacement {
         mut closed: Vec<bool>,
         applied: f64,
     ) -> Self {
+        let under = conditions.disc.map_or_else(Vec::new, |disc| division.under(&disc));
         let Division { mesh, elements, centers } = division;
         let count = mesh.elements.len();
         let opens = |sides: [bool; 4]| -> Vec<bool> {
             mesh.elements.iter().map(|element| (0..4).any(|side| element.open[side] && sides[side])).collect()
         };
-        let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
+        let (mut inlets, mut outlets) = (opens(conditions.inlet), opens(conditions.outlet));
+        if let Some(disc) = conditions.disc {
+            let open = if disc.is_inlet { &mut inlets } else { &mut outlets };
+            under.into_iter().for_each(|element| open[element] = true);
+        }
         inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
         Self::closed_within(&mesh, &mut closed, &invaded, &conditions.films);
         let rings = Self::rings_of(&mesh, &conditions.films);
@@ -185,6 +212,11 @@ impl Displacement {
         }
         begun.queue_snap_off(&mesh);
         begun
+    }
+
+    /// The elements of which a disc covers a part.
+    pub(crate) fn elements_under(&self, disc: &OpenDisc) -> Vec<usize> {
+        self.division().under(disc)
     }
 
     pub(super) fn fill(&mut self, mesh: &Mesh, elements: &[usize]) {

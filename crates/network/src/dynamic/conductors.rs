@@ -90,15 +90,19 @@ impl Dynamic {
                 edges.push(Edge { ends: (node_of[a], Some(node_of[b])), is_good: true });
             }
         }
-        for &(opening, element) in &self.space.openings {
+        let sides = self.space.openings.iter().filter_map(|&(opening, element)| {
             let side = self.space.network.openings[opening].side;
             let kind = match () {
                 () if self.space.terms.inlet[side] => LinkKind::Inlet,
                 () if self.space.terms.outlet[side] => LinkKind::Outlet,
-                () => continue,
+                () => return None,
             };
+            Some((kind, element, self.space.opening_resistances[opening]))
+        });
+        let disc = self.space.under_disc.iter().map(|&element| (LinkKind::Inlet, element, self.under_disc(element)));
+        for (kind, element, resistance) in sides.chain(disc) {
             // Flow into a filling pore is against the direction of the link.
-            let mut halves = [0.0, self.space.opening_resistances[opening]];
+            let mut halves = [0.0, resistance];
             let mut node = node_of[element];
             if let Some(filling_pore) = filling_pores.get_mut(&element).filter(|_| kind == LinkKind::Inlet) {
                 node = filling_pore.node;
@@ -116,7 +120,7 @@ impl Dynamic {
             });
             edges.push(Edge { ends: (filling_pore.node, Some(node_of[element])), is_good: false });
         }
-        Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of })
+        Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of, ways_out: self.ways_out() })
     }
 
     /// The filling pores, each with a node of its own.
@@ -147,6 +151,12 @@ impl Dynamic {
             }
             None => [6.0 / (width * width); 2],
         }
+    }
+
+    /// Resistance in 1/m² between the disc of the inlet and an element under it: the least, since both lie one upon the other.
+    fn under_disc(&self, element: usize) -> f64 {
+        let radius = self.space.network.regions[self.displacement.region(element)].radius;
+        LEAST / (4.0 * radius * radius)
     }
 
     /// Viscosity in Pa s of the phase in an element; in a filling element the mean by area.

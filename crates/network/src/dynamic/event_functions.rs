@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Dynamic;
 use super::capillary_curve::CapillaryCurve;
+use super::graph::WaysOut;
 use crate::displacement::{Advance, FrontId};
 
 /// An event function.
@@ -154,20 +155,20 @@ impl Dynamic {
     }
 
     /// The filling elements from which the defending phase has a path to an outlet.
-    pub(super) fn open_fillings(&self) -> Vec<usize> {
-        let trapped = self.trapped();
-        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.space.is_outlet[e] && !trapped[e];
-        (0..trapped.len()).filter(fills).collect()
+    pub(super) fn open_fillings(&self, ways: &WaysOut) -> Vec<usize> {
+        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.space.is_outlet[e] && ways.exists(e);
+        (0..self.state.filling.len()).filter(fills).collect()
     }
 
     /// The invading phase in a filling element.
-    pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling) -> FillingPore {
+    pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling, ways: &WaysOut) -> FillingPore {
         let own = self.displacement.elements()[element].area;
         let excess_areas: f64 = self.excess_areas(element).iter().map(|(_, area)| area).sum();
         // Menisci ahead of elements that the full element cuts off from the outlet do not advance.
-        let cut_off = self.trapped_once_full(Some(element));
-        let (stopped, ahead): (Vec<_>, Vec<_>) =
-            self.future_menisci(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
+        let (stopped, ahead): (Vec<_>, Vec<_>) = self
+            .future_menisci(element)
+            .into_iter()
+            .partition(|it| self.is_cut_off(ways, self.ahead_of(it.front), element));
         let stopped: f64 = stopped.iter().map(|it| it.area(filling.curvature)).sum();
         let first = ahead.iter().map(|it| it.event()).reduce(f64::min);
         let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - excess_areas;

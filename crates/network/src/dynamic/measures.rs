@@ -48,7 +48,7 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
         measure("trapped-saturation", trapped / dynamic.pore_area(), "")
             .by("share of the pore space that holds the displaced phase and from which none leads on to the outlet"),
         measure("capillary-number", mean, "").by(
-            "viscosity of the invading phase x inflow / (length of the inlet side x tension), mean over the records",
+            "viscosity of the invading phase x inflow / (length of the inlet side, or around the inlet disc, x tension), mean over the records",
         ),
         measure("viscosity-ratio", terms.viscosity[0] / terms.viscosity[1], "")
             .by("viscosity of the invading phase over that of the displaced one"),

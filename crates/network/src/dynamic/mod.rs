@@ -52,6 +52,7 @@ pub(crate) mod solver;
 mod state;
 mod step;
 mod terms;
+mod ways_out;
 
 use std::sync::Arc;
 
@@ -87,6 +88,8 @@ struct PoreSpace {
     gates: Vec<GateFacts>,
     /// Opening and its element.
     openings: Vec<(usize, usize)>,
+    /// The elements under the disc that is the inlet.
+    under_disc: Vec<usize>,
     /// In 1/m².
     resistances: Vec<[f64; 2]>,
     opening_resistances: Vec<f64>,
@@ -133,6 +136,7 @@ impl Dynamic {
         let elements = displacement.elements().len();
         let space = PoreSpace {
             openings: displacement.openings(),
+            under_disc: terms.inlet_disc.map_or_else(Vec::new, |disc| displacement.elements_under(&disc)),
             resistances: resistances(&network),
             opening_resistances: opening_resistances(&network),
             pore_area: displacement.elements().iter().map(|element| element.area).sum(),
@@ -315,27 +319,5 @@ impl Dynamic {
             let (passage, own) = self.displacement.passage_of(front)?;
             passage.at(curve.curvature(meniscus.area).min(own))
         })
-    }
-
-    /// For each element, whether it holds the defending phase without a path to an outlet through this phase.
-    pub fn trapped(&self) -> Vec<bool> {
-        self.trapped_once_full(None)
-    }
-
-    /// The same, once element `full` is full too.
-    fn trapped_once_full(&self, full: Option<usize>) -> Vec<bool> {
-        let is_invaded = |element: usize| self.is_invaded(element) || full == Some(element);
-        let count = self.state.filling.len();
-        let mut flows = vec![false; count];
-        let mut open: Vec<usize> = (0..count).filter(|&element| self.space.is_outlet[element]).collect();
-        while let Some(element) = open.pop() {
-            if is_invaded(element) || std::mem::replace(&mut flows[element], true) {
-                continue;
-            }
-            open.extend(
-                self.displacement.gates_of(element).iter().map(|&(gate, end)| self.space.gates[gate].elements[1 - end]),
-            );
-        }
-        (0..count).map(|element| !is_invaded(element) && !flows[element]).collect()
     }
 }

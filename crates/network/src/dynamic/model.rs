@@ -1,5 +1,7 @@
 //! A dynamic displacement with its network, for output.
 
+use std::f64::consts::TAU;
+
 use super::Dynamic;
 use crate::cycles::{FluidPhase, Invasion};
 use crate::model::Model;
@@ -31,13 +33,14 @@ impl DynamicModel {
         self.invading.saturation(self.saturation())
     }
 
-    /// Capillary number μ U/σ: viscosity of the invading phase, U the inflow over the length of the inlet side.
+    /// Capillary number μ U/σ: viscosity of the invading phase, U the inflow over the length of the inlet side or around the inlet disc.
     pub(crate) fn capillary_number(&self) -> f64 {
         let (_, inflow) = self.dynamic.drive_now();
         let terms = self.dynamic.terms();
         let config = &self.quasi_static.config;
-        let side = config.inlet.map_or(f64::NAN, |inlet| config.bounds.size()[1 - inlet / 2]);
-        terms.viscosity[0] * inflow / (side * terms.tension)
+        let around = config.inlet_disc.map_or(f64::NAN, |disc| TAU * disc.radius);
+        let length = config.inlet.map_or(around, |inlet| config.bounds.size()[1 - inlet / 2]);
+        terms.viscosity[0] * inflow / (length * terms.tension)
     }
 
     /// The present state.

@@ -117,6 +117,7 @@ impl Dynamic {
     /// Their share of the pore space if it is less than `share`.
     pub fn beginning_with(mut self, share: f64) -> Result<Self, f64> {
         self.space.is_inlet = self.defending_at(self.space.terms.inlet);
+        self.space.under_disc.iter().for_each(|&element| self.space.is_inlet[element] = true);
         let elements: Vec<usize> =
             (0..self.space.is_inlet.len()).filter(|&element| self.space.is_inlet[element]).collect();
         let area_of = |element: usize| self.displacement.elements()[element].area;

@@ -1,5 +1,6 @@
 //! Fluids, drive and depth of a dynamic displacement.
 
+use crate::displacement::OpenDisc;
 use crate::gravity::Gravity;
 use meniscus_case::FluidPhase;
 use meniscus_case::network::Drive;
@@ -20,6 +21,8 @@ pub struct Terms {
     pub largest_step: f64,
     /// Sides at which the invading phase enters: left, right, bottom, top.
     pub inlet: [bool; 4],
+    /// The disc through which it enters in place of a side.
+    pub inlet_disc: Option<OpenDisc>,
     /// Sides at which both phases leave.
     pub outlet: [bool; 4],
     /// The invading phase, and floor and lid with its contact angles; `None` in the plane.

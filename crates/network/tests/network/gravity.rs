@@ -127,6 +127,7 @@ fn in_time_a_slow_front_takes_the_pressures_of_rest() {
             drive: Drive::Rate(1e-6 * tension / 1e-3),
             largest_step: 1e-3,
             inlet: BOTTOM,
+            inlet_disc: None,
             outlet: TOP,
             depth: None,
             gravity: Some(gravity),

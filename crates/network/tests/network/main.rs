@@ -34,6 +34,7 @@ mod motion;
 mod packs;
 mod permeability;
 mod pores;
+mod radial;
 mod region;
 mod scenes;
 mod symmetry;
