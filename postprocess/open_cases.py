@@ -198,24 +198,23 @@ def bath_and_line(directory: Path, run: str) -> np.ndarray:
 
 
 def plate(directory: Path) -> list[str]:
-    """The table of the plate: whether the line rests, and its height beside that of lubrication theory, which ends at the fold."""
+    """The table of the plate: the height of the line beside that of lubrication theory, which ends at the fold, and whether liquid stays on the plate."""
     lines = [
-        "| slip length | spacing | capillary number | over that of the fold | line | height | rise in the last quarter over the speed of the plate | height by lubrication | processor time in s |",
+        "| slip length | spacing | capillary number | over that of the fold | height | of lubrication | rise over speed of the plate | records with pieces on the plate | processor time in s |",
         "|---" * 9 + "|",
     ]
     folds = {}
-    for row in runs(directory):
+    for row in sorted(runs(directory), key=lambda row: (-float(row["slip"]), -float(row["spacing"]), float(row["speed"]))):
         slip, number = float(row["slip"]) / LENGTH, float(row["speed"]) / UNIT_SPEED
-        critical, top = folds.setdefault(slip, fold(ANGLE, slip))
+        critical = folds.setdefault(slip, fold(ANGLE, slip))[0]
         time, height = bath_and_line(directory, row["run"])
         late = time >= 0.75 * time[-1]
         rise = np.polyfit(time[late], height[late], 1)[0] / float(row["speed"])
-        pieces = series(directory, row["run"], ["wetting_blobs"])[0].max()
-        lost = pieces > 1 or height[-1] / LENGTH > 1.1 * top
+        pieces = (series(directory, row["run"], ["wetting_blobs"])[0] > 1).mean()
+        theory = resting_height(number, slip)
         lines.append(
-            f"| {slip:.2g} | {float(row['spacing']) / LENGTH:.2g} | {number:.3f} | {number / critical:.2f} | "
-            + (f"{'leaves pieces' if pieces > 1 else 'rises'} | – | – | " if lost else f"rests | {height[late].mean() / LENGTH:.2f} | {rise:.3f} | ")
-            + f"{resting_height(number, slip):.2f} | {row['cpu-s']:.0f} |"
+            f"| {slip:.2g} | {float(row['spacing']) / LENGTH:.2g} | {number:.2f} | {number / critical:.2f} | {height[late].mean() / LENGTH:.2f} | "
+            f"{'–' if math.isnan(theory) else f'{theory:.2f}'} | {rise:.3f} | {100 * pieces:.0f} % | {row['cpu-s']:.0f} |"
         )
     lines += [f"\nFold at a slip length of {slip:.2g}: capillary number {number:.4f}, height {top:.2f}" for slip, (number, top) in folds.items()]
     return lines
