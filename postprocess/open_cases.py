@@ -108,7 +108,10 @@ def draw_tilted(directory: Path, picture: Path) -> None:
 
 def bubble(directory: Path) -> list[str]:
     """The table of the bubble: largest speeds, pressure jump, drift of its center, and processor time."""
-    lines = ["| spacings in the radius | largest speed in m/s | error of the pressure jump | drift of the center over the radius | processor time in s |", "|---" * 5 + "|"]
+    lines = [
+        "| spacings in the radius | largest speed in m/s | error of the pressure jump | drift of the center over the radius | processor time in s |",
+        "|---" * 5 + "|",
+    ]
     for row in sorted(runs(directory), key=lambda row: -float(row["spacing"])):
         jump = row["laplace-jump-ratio"]
         drift = np.linalg.norm(np.concatenate(interface(directory, row["run"])).mean(axis=0)) / 3e-5
@@ -187,20 +190,21 @@ def resting_height(capillary_number: float, slip: float) -> float:
 
 
 def bath_and_line(directory: Path, run: str) -> np.ndarray:
-    """Over the frames of a run: time in s, height in m of the interface at the plate above that at the other side, of the part that both share."""
+    """Over the frames of a run: time in s, and height in m of the contact line (displacement in the series) above the interface at the other side."""
+    time, line = series(directory, run, ["time_s", "receding_line_m"])
+    time, line = time[np.isfinite(line)], line[np.isfinite(line)]
     found = []
     for frame in results.frames(directory / "runs" / run / "interface.pvd"):
-        lines = results.read(frame.file).connectivity()
-        points, part = np.asarray(lines.points), np.asarray(lines.point_data["RegionId"])
-        whole = points[part == part[points[:, 0].argmax()]]
-        found.append((frame.time, whole[whole[:, 0].argmin(), 1] - whole[whole[:, 0].argmax(), 1]))
+        points = np.asarray(results.read(frame.file).points)
+        found.append((frame.time, np.interp(frame.time, time, line) - points[points[:, 0].argmax(), 1]))
     return np.array(found).T
 
 
 def plate(directory: Path) -> list[str]:
     """The table of the plate: the height of the line beside that of lubrication theory, which ends at the fold, and whether liquid stays on the plate."""
     lines = [
-        "| slip length | spacing | capillary number | over that of the fold | height | of lubrication | rise over speed of the plate | records with pieces on the plate | processor time in s |",
+        "| slip length | spacing | capillary number | over that of the fold | height | of lubrication | rise over speed of the plate | records with pieces "
+        "on the plate | processor time in s |",
         "|---" * 9 + "|",
     ]
     folds = {}
@@ -221,8 +225,8 @@ def plate(directory: Path) -> list[str]:
 
 
 def draw_plate(directory: Path, picture: Path) -> None:
-    """Height over time in units of the capillary length and of capillary length over speed, a panel for each slip length."""
-    rows = runs(directory)
+    """Height over time in units of the capillary length and of capillary length over speed, a panel for each slip length and spacing."""
+    rows = sorted(runs(directory), key=lambda row: float(row["speed"]))
     walls = sorted({(row["slip"], row["spacing"]) for row in rows}, key=lambda wall: (-float(wall[0]), -float(wall[1])))
     figure, panels = plt.subplots(1, len(walls), figsize=(11, 3.8), sharey=True, layout="constrained")
     for (slip, spacing), axes in zip(walls, panels, strict=True):
@@ -233,8 +237,9 @@ def draw_plate(directory: Path, picture: Path) -> None:
             axes.plot(time * float(row["speed"]) / LENGTH, height / LENGTH, color=shade, label=f"Ca = {number:.2f}")
             level = resting_height(number, float(slip) / LENGTH)
             axes.axhline(level, color=shade, ls=":", lw=1)
-        axes.set(xlabel="time x speed/capillary length", title=f"slip length {float(slip) / LENGTH:.2g}, spacing {float(spacing) / LENGTH:.2g}", ylim=(0.0, 2.7))
-        axes.legend(fontsize=8, loc="lower right")
+        axes.set(xlabel="time x speed/capillary length", ylim=(0.0, 2.7))
+        axes.set_title(f"slip length {float(slip) / LENGTH:.2g}, spacing {float(spacing) / LENGTH:.2g}")
+        axes.legend(fontsize=8, loc="upper left", ncol=2)
     panels[0].set_ylabel("height of the line/capillary length")
     figure.savefig(picture, dpi=100)
     plt.close(figure)
