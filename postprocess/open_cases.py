@@ -220,7 +220,9 @@ def plate(directory: Path) -> list[str]:
             f"| {slip:.2g} | {float(row['spacing']) / LENGTH:.2g} | {number:.2f} | {number / critical:.2f} | {height[late].mean() / LENGTH:.2f} | "
             f"{'–' if math.isnan(theory) else f'{theory:.2f}'} | {rise:.3f} | {100 * pieces:.0f} % | {row['cpu-s']:.0f} |"
         )
-    lines += [f"\nFold at a slip length of {slip:.2g}: capillary number {number:.4f}, height {top:.2f}" for slip, (number, top) in folds.items()]
+    lines += ["\n| fold at a slip length of | at 30 degrees: capillary number, height | at 60 degrees |", "|---" * 3 + "|"]
+    for slip in (0.1, 0.05, 0.02, 0.01):
+        lines.append(f"| {slip} | " + " | ".join("{:.4f}, {:.2f}".format(*fold(angle, slip)) for angle in (30.0, 60.0)) + " |")
     return lines
 
 
@@ -237,7 +239,7 @@ def draw_plate(directory: Path, picture: Path) -> None:
             axes.plot(time * float(row["speed"]) / LENGTH, height / LENGTH, color=shade, label=f"Ca = {number:.2f}")
             level = resting_height(number, float(slip) / LENGTH)
             axes.axhline(level, color=shade, ls=":", lw=1)
-        axes.set(xlabel="time x speed/capillary length", ylim=(0.0, 2.7))
+        axes.set(xlabel="time x speed/capillary length", ylim=(0.0, 3.2))
         axes.set_title(f"slip length {float(slip) / LENGTH:.2g}, spacing {float(spacing) / LENGTH:.2g}")
         axes.legend(fontsize=8, loc="upper left", ncol=2)
     panels[0].set_ylabel("height of the line/capillary length")
