@@ -6,6 +6,7 @@ Times in s: columns of a still, with a row for each run; without times every rec
 
 import argparse
 import io
+import math
 from pathlib import Path
 
 import colors
@@ -48,7 +49,7 @@ def draw(ax, found: dict, title: str) -> None:
 
 def angle(directory: Path) -> float:
     """Requested contact angle in degrees."""
-    return results.report(directory)["measures"]["requested-angle-deg"]["value"]
+    return math.degrees(results.report(directory)["case"]["model"]["sph"]["wetting_model"]["young"]["contact_angle"])
 
 
 def sheet(rows: list[list[tuple[Path, float]]]) -> plt.Figure:
