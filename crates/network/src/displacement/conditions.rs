@@ -1,6 +1,6 @@
 //! Conditions of a displacement: contact angles, open sides, and types of events.
 
-use super::outline::holds;
+use super::outline::contains;
 use crate::gravity::Gravity;
 use meniscus_case::network::{Events, InletDisc, Trapping};
 use meniscus_core::math::Vec2;
@@ -56,7 +56,7 @@ impl OpenDisc {
             let share = ((self.center - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
             (a + share * along - self.center).norm()
         };
-        holds(outline, self.center) || edges().any(|edge| distance(edge) < self.radius)
+        contains(outline, self.center) || edges().any(|edge| distance(edge) < self.radius)
     }
 }
 

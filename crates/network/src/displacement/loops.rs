@@ -217,6 +217,10 @@ pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
     if whole.has_seam {
         return vec![whole];
     }
+    // Around the grains of a domain whose sides are all open: no segment has the loop around it.
+    if whole.area() < 0.0 {
+        return vec![whole];
+    }
     let (mut open, mut done) = (vec![whole], Vec::new());
     while let Some(part) = open.pop() {
         match if part.walls.len() > 3 { part.divided(*segments) } else { None } {

@@ -1,7 +1,7 @@
 //! Loops as polygons, for pictures: arcs as chords of a few degrees.
 //!
 //! The boundary of a region around a periodic domain has two disjoint parts, each a period long. The polygon is cut open between them along
-//! the shortest segment from a vertex of one to the other, which meets nothing else.
+//! the shortest segment from a vertex of one to the other, which meets nothing else. So is that of a region around all grains of a domain whose sides are all open.
 
 use super::loops::Loop;
 use meniscus_core::math::Vec2;
@@ -20,7 +20,34 @@ pub(super) fn outline(part: &Loop) -> Vec<Vec2> {
     }
     let mut points = Vec::new();
     part.curves().iter().for_each(|curve| sample(curve, &mut points));
+    if !part.apart.is_empty()
+        && let (Some(grains), Some(around)) = around(chains(part))
+        && let Some(polygon) = joined(&grains, &around)
+    {
+        return polygon;
+    }
     points
+}
+
+/// Among the chains of a boundary, the one around the grains of a domain, and the whole sides that are open, joined to one around the domain; `None` if
+/// either does not close.
+fn around(chains: Vec<Vec<Vec2>>) -> (Option<Vec<Vec2>>, Option<Vec<Vec2>>) {
+    let (mut sides, mut others): (Vec<Vec<Vec2>>, Vec<Vec<Vec2>>) =
+        chains.into_iter().partition(|chain| chain.len() == 2);
+    let size = sides.iter().map(|side| (side[1] - side[0]).norm()).fold(0.0, f64::max);
+    let meet = |a: Vec2, b: Vec2| (a - b).norm() <= 1e-9 * size;
+    let mut ring = sides.pop().unwrap_or_default();
+    while let Some(&end) = ring.last()
+        && let Some(next) = sides.iter().position(|side| meet(side[0], end))
+    {
+        ring.push(sides.swap_remove(next)[1]);
+    }
+    let closed = |mut chain: Vec<Vec2>| {
+        let last = chain.pop()?;
+        chain.push(*chain.first().filter(|first| chain.len() > 1 && meet(**first, last))?);
+        Some(chain)
+    };
+    (others.pop().filter(|_| others.is_empty()).and_then(closed), closed(ring))
 }
 
 /// The centroid of a polygon.
@@ -71,7 +98,7 @@ fn chains(part: &Loop) -> Vec<Vec<Vec2>> {
     found
 }
 
-/// The polygon between two chains that go around the domain in opposite directions.
+/// The polygon between two chains that go around the domain, or around its grains, in opposite directions.
 fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
     // Maximum number of pairs of vertices and edges tried.
     const MOST_PAIRS: usize = 1 << 22;
@@ -105,14 +132,6 @@ fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
     // Shift back to the position of the other chain: an open side lies in the domain.
     polygon.iter_mut().for_each(|point| *point -= by);
     Some(polygon)
-}
-
-/// Whether a point lies in an element with this outline, which has the pore on its right: outside of one that goes around the grains of a domain whose sides are
-/// all open.
-pub(crate) fn holds(outline: &[Vec2], x: Vec2) -> bool {
-    let edges = (0..outline.len()).map(|k| (outline[k] - x, outline[(k + 1) % outline.len()] - x));
-    let is_around = edges.map(|(a, b)| a.x * b.y - a.y * b.x).sum::<f64>() > 0.0;
-    contains(outline, x) != is_around
 }
 
 /// Whether a point lies within an outline, by the number of edges to its right.

@@ -102,7 +102,9 @@ impl Dynamic {
                 _ => {}
             }
         }
-        for element in (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element)) {
+        for element in
+            (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element) && self.is_near(element))
+        {
             let fronts: Vec<FrontId> = self.entering(element).map(|(front, _)| front).collect();
             // An element at the outlet is never full: the invading phase leaves it.
             let is_leaving = self.space.is_outlet[element] && !fronts.is_empty();
@@ -123,6 +125,15 @@ impl Dynamic {
         }
         event_functions.extend(self.all_approaching_outlet().into_iter().map(EventFunction::Leaves));
         event_functions
+    }
+
+    /// Whether the invading phase is in an element or beside it, so that menisci may meet there.
+    fn is_near(&self, element: usize) -> bool {
+        let beside = |&(gate, end): &FrontId| {
+            self.state.menisci[gate][end].is_some()
+                || self.state.filling[self.space.gates[gate].elements[1 - end]].is_some()
+        };
+        self.state.filling[element].is_some() || self.displacement.gates_of(element).iter().any(beside)
     }
 
     /// Whether an advance lets the invading phase into an element.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Dynamic;
-use crate::displacement::holds;
+use crate::displacement::contains;
 use crate::model::Configuration;
 use meniscus_core::math::{Bounds, Vec2};
 
@@ -80,9 +80,9 @@ impl Line {
         let Self::Circle { center, radius } = self else { return pairs(&crossings) };
         let at = |place: f64| center + radius * Vec2::new((place / radius).cos(), (place / radius).sin());
         let (Some(&first), Some(&second)) = (crossings.first(), crossings.get(1)) else {
-            return if holds(outline, at(0.0)) { vec![[0.0, TAU * radius]] } else { Vec::new() };
+            return if contains(outline, at(0.0)) { vec![[0.0, TAU * radius]] } else { Vec::new() };
         };
-        if !holds(outline, at(0.5 * (first + second))) {
+        if !contains(outline, at(0.5 * (first + second))) {
             // It lies within around the beginning of the circle.
             crossings.insert(0, 0.0);
             crossings.push(TAU * radius);
