@@ -83,8 +83,9 @@ impl Displacement {
                 return (event, merged.passed);
             }
             reached = reached.max(next);
-            // Rounding error, as of simultaneous events.
-            let rounding = 1e-9 * reached.abs();
+            // Rounding error relative to the curvature, or to the inverse of the wall between, as of simultaneous events.
+            let shared = meetings.iter().map(|(_, neighbor, _)| neighbor.shared).fold(f64::INFINITY, f64::min);
+            let rounding = 1e-9 * reached.abs().max(1.0 / shared);
             for (hand, neighbor, _) in meetings.iter().filter(|(.., curvature)| *curvature <= reached + rounding) {
                 merged.meet(*hand, neighbor);
             }

@@ -53,7 +53,7 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
         measure("viscosity-ratio", terms.viscosity[0] / terms.viscosity[1], "")
             .by("viscosity of the invading phase over that of the displaced one"),
         measure("finger-width-m", fingers.width, "m")
-            .by("mean on 64 lines across the flow, from the first to the last pore of a finger, solids in it \
+            .by("mean on 64 lines across the flow, circles about an inlet disc, from the first to the last pore of a finger, solids in it \
                  included"),
         measure("fingers-per-line", fingers.count, "")
             .by("mean number of fingers on the lines that the invading phase has reached"),
