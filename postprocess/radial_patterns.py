@@ -74,7 +74,7 @@ def picture(directory: Path, found: list[tuple[dict[str, str], dict[str, float]]
     """Patterns by angle (down) and rate (across), and pressures over the injected volume below."""
     rates = sorted({measures["rate"] for _, measures in found})
     angles = sorted({measures["angle"] for _, measures in found}, reverse=True)
-    figure, axes = plt.subplots(len(angles) + 1, len(rates), figsize=(2.2 * len(rates), 2.2 * (len(angles) + 1)), layout="constrained")
+    figure, axes = plt.subplots(len(angles) + 1, len(rates), figsize=(2.2 * len(rates), 1.85 * (len(angles) + 1)), layout="constrained")
     for axis in axes[:-1].flat:
         axis.set(xlim=(-95, 95), ylim=(-95, 95), aspect="equal", xticks=[], yticks=[])
         axis.add_patch(plt.Circle((0, 0), 1e3 * RADIUS, facecolor=colors.NON_WETTING, alpha=0.35))
@@ -86,12 +86,11 @@ def picture(directory: Path, found: list[tuple[dict[str, str], dict[str, float]]
         if down == 0:
             axis.set_title(f"{1e9 * measures['rate']:g} mm³/s")
         if across == 0:
-            axis.set_ylabel(f"{measures['angle']:g}° through the water")
+            axis.set_ylabel(f"{measures['angle']:g}°")
         series = rows(directory / "runs" / row["run"] / "series.csv")
         injected, pressure = (np.array([float(it[name]) for it in series[1:]]) for name in ("injected_pore_volumes", "pressure_difference_Pa"))
         axes[-1, across].plot(injected, pressure, color=shades[down], label=f"{measures['angle']:g}°", linewidth=1)
-    for axis in axes[-1]:
-        axis.set(xlabel="injected volume over that of the box")
+    axes[-1, len(rates) // 2].set_xlabel("injected volume over that of the pores and the rim")
     axes[-1, 0].set_ylabel("pressure in Pa")
     axes[-1, 0].legend(fontsize="x-small")
     buffer = io.BytesIO()
