@@ -1,6 +1,6 @@
 //! Point location in elements.
 
-use super::displacement::{Element, centroid, contains};
+use super::displacement::{Element, centroid, contains, edges};
 use meniscus_core::math::{Bounds, Vec2};
 
 /// A point within an outline: its centroid if inside, else the middle of the longest segment of a line across it.
@@ -20,10 +20,6 @@ pub(super) fn inner_point(outline: &[Vec2]) -> Vec2 {
     crossings.sort_by(f64::total_cmp);
     let widest = crossings.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     widest.map_or(centroid, |piece| Vec2::new(0.5 * (piece[0] + piece[1]), y))
-}
-
-fn edges(outline: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
-    (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
 }
 
 /// Cells of a regular grid with the elements that overlap them.

@@ -139,10 +139,9 @@ fn inlet_disc(
         let message = "a disc is the inlet, and the domain is periodic: the phase would come from all sides at once";
         checker.refuse(KEY, message, "make all sides walls or outlets, or name a side as the inlet");
     }
-    checker.require::<()>(&format!("{KEY}.center"), given.center.map(|_| ()), "center = [0.0, 0.0] # m");
-    checker.require::<()>(&format!("{KEY}.radius"), given.radius.map(|_| ()), "radius = 1.0e-3 # m");
-    let disc = given.complete()?;
-    let geometry = geometry?;
+    let center = checker.require(&format!("{KEY}.center"), given.center, "center = [0.0, 0.0] # m");
+    let radius = checker.require(&format!("{KEY}.radius"), given.radius, "radius = 1.0e-3 # m");
+    let (disc, geometry) = (InletDisc { center: center?, radius: radius? }, geometry?);
     let is_inside = |axis: usize| {
         let [low, high] = [disc.center[axis] - disc.radius, disc.center[axis] + disc.radius];
         low >= geometry.min[axis] && high <= geometry.max[axis]
@@ -212,7 +211,12 @@ fn sides(checker: &mut Checker, raw: &mut RawNetwork) -> Option<Sides> {
             let message = "the outlet is all sides, and the inlet is one of them";
             checker.refuse("network.outlet", message, "name the opposite side, or give inlet-disc in place of inlet");
         }
-        (0..4).filter(|&side| given[side].is_none()).for_each(|side| kinds[side] = Side::Outlet);
+        let free: Vec<usize> = (0..4).filter(|&side| given[side].is_none()).collect();
+        if free.is_empty() {
+            let message = "the outlet is all sides without a kind, and [network.sides] gives each side one";
+            checker.refuse("network.outlet", message, "leave a side out of [network.sides], or leave this out");
+        }
+        free.into_iter().for_each(|side| kinds[side] = Side::Outlet);
     }
     if let (Some(inlet), Some(outlet)) = (raw.inlet.map(SideName::number), outlet) {
         if inlet == outlet {

@@ -178,7 +178,7 @@ words! {
 }
 
 impl RawNetwork {
-    /// Whether the invading phase has a way in, so that there is a displacement.
+    /// Whether there is an inlet, and so a displacement.
     pub(crate) fn has_inlet(&self) -> bool {
         self.inlet.is_some() || self.inlet_disc.is_some()
     }

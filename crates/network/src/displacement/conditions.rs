@@ -1,9 +1,10 @@
 //! Conditions of a displacement: contact angles, open sides, and types of events.
 
-use super::outline::contains;
+use super::outline::{contains, edges};
 use crate::gravity::Gravity;
 use meniscus_case::network::{Events, InletDisc, Trapping};
 use meniscus_core::math::Vec2;
+use meniscus_geometry::curve::Curve;
 use meniscus_geometry::interface::head::Head;
 
 /// Conditions of a displacement.
@@ -50,13 +51,8 @@ impl OpenDisc {
 
     /// Whether it covers a part of an outline in m.
     pub(super) fn covers(&self, outline: &[Vec2]) -> bool {
-        let edges = || (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]));
-        let distance = |(a, b): (Vec2, Vec2)| {
-            let along = b - a;
-            let share = ((self.center - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            (a + share * along - self.center).norm()
-        };
-        contains(outline, self.center) || edges().any(|edge| distance(edge) < self.radius)
+        let distance = |(a, b): (Vec2, Vec2)| (Curve::Segment { a, b }.project(self.center).point - self.center).norm();
+        contains(outline, self.center) || edges(outline).any(|edge| distance(edge) < self.radius)
     }
 }
 

@@ -1,8 +1,10 @@
 //! Interface for a model that determines the time of events: it queries menisci and their events, and reports filled elements.
 
+use super::connected::Held;
 use super::event::{Candidate, EventKind};
 use super::loops::GateId;
 use super::mesh::FrontId;
+use super::outflow::Outflow;
 use super::progress::Displacement;
 use crate::graph::WallPiece;
 use meniscus_core::math::Vec2;
@@ -92,6 +94,13 @@ impl Displacement {
     /// The gates of an element, each with the end that lies in it.
     pub(crate) fn gates_of(&self, element: usize) -> &[FrontId] {
         &self.mesh.elements[element].gates
+    }
+
+    /// Paths of the defending phase to elements marked as outlets.
+    pub(crate) fn outflow(&self, is_outlet: &[bool]) -> Outflow {
+        let defends: Vec<bool> = self.invaded.iter().map(|invaded| !invaded).collect();
+        let held = Held { mesh: &self.mesh, invaded: &self.invaded, closed: &self.closed, rings: None };
+        Outflow::new(held.graph(false), &defends, is_outlet)
     }
 
     /// The region of an element.

@@ -35,7 +35,8 @@ pub use self::conditions::{Conditions, CornerFilms, FilmPaths, MeasuredBurst, Op
 pub(crate) use self::driven::{Advance, GateFacts};
 pub use self::event::EventKind;
 pub(crate) use self::mesh::FrontId;
-pub(crate) use self::outline::{centroid, contains};
+pub(crate) use self::outflow::Outflow;
+pub(crate) use self::outline::{centroid, contains, edges};
 pub(crate) use self::progress::Division;
 pub use self::progress::{Displacement, Element, Phase};
 pub use self::sequence::Event;

@@ -10,14 +10,14 @@ use super::connected::Graph;
 
 /// Paths of the defending phase to the outlets.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Outflow {
+pub(crate) struct Outflow {
     /// The next element on the path; an outlet element leads to itself. `None` without a path.
     next: Vec<Option<usize>>,
 }
 
 impl Outflow {
     /// Paths to the elements marked as outlets, whatever phase they hold, through the elements marked as defending and all rings.
-    pub(crate) fn new(graph: Graph, defends: &[bool], is_outlet: &[bool]) -> Self {
+    pub(super) fn new(graph: Graph, defends: &[bool], is_outlet: &[bool]) -> Self {
         let mut next = vec![None; graph.nodes()];
         let mut queue: Vec<usize> = (0..graph.nodes()).filter(|&node| is_outlet[node]).collect();
         queue.iter().for_each(|&e| next[e] = Some(e));
@@ -37,13 +37,25 @@ impl Outflow {
         Self { next }
     }
 
+    /// Whether the element has a path to an outlet that does not lead through another one.
+    pub(crate) fn avoids(&self, mut element: usize, other: usize) -> bool {
+        while element != other {
+            match self.next[element] {
+                Some(next) if next == element => return true,
+                Some(next) => element = next,
+                None => return false,
+            }
+        }
+        false
+    }
+
     /// Whether the element has a path to an outlet.
     pub(crate) fn is_open(&self, element: usize) -> bool {
         self.next[element].is_some()
     }
 
     /// Removes an element, and returns those that have no path any more.
-    pub(crate) fn remove(&mut self, graph: Graph, element: usize) -> Vec<usize> {
+    pub(super) fn remove(&mut self, graph: Graph, element: usize) -> Vec<usize> {
         let is_outlet = self.next[element] == Some(element);
         if !is_outlet {
             self.next[element] = None;
@@ -53,7 +65,7 @@ impl Outflow {
     }
 
     /// Removes the direct path between two elements or two rings, which is closed already, and returns those that have none any more.
-    pub(crate) fn close(&mut self, graph: Graph, [one, other]: [usize; 2]) -> Vec<usize> {
+    pub(super) fn close(&mut self, graph: Graph, [one, other]: [usize; 2]) -> Vec<usize> {
         if graph.neighbors(one).any(|beside| beside == other) {
             return Vec::new();
         }

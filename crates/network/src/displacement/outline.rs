@@ -134,12 +134,16 @@ fn joined(one: &[Vec2], other: &[Vec2]) -> Option<Vec<Vec2>> {
     Some(polygon)
 }
 
+/// The edges of an outline.
+pub(crate) fn edges(outline: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
+}
+
 /// Whether a point lies within an outline, by the number of edges to its right.
 pub(crate) fn contains(outline: &[Vec2], x: Vec2) -> bool {
     let to_the_right =
         |(a, b): &(Vec2, Vec2)| (a.y > x.y) != (b.y > x.y) && x.x < a.x + (b.x - a.x) * (x.y - a.y) / (b.y - a.y);
-    let edges = (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]));
-    edges.filter(to_the_right).count() % 2 == 1
+    edges(outline).filter(to_the_right).count() % 2 == 1
 }
 
 #[cfg(test)]

@@ -120,7 +120,14 @@ impl Dynamic {
             });
             edges.push(Edge { ends: (filling_pore.node, Some(node_of[element])), is_good: false });
         }
-        Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of, ways_out: self.ways_out() })
+        Ok(Graph {
+            laplacian: Laplacian::new(nodes, edges)?,
+            links,
+            nodes,
+            inlet,
+            link_of,
+            outflow: self.displacement.outflow(&self.space.is_outlet),
+        })
     }
 
     /// The filling pores, each with a node of its own.

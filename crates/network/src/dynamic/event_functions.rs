@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::Dynamic;
 use super::capillary_curve::CapillaryCurve;
-use super::graph::WaysOut;
-use crate::displacement::{Advance, FrontId};
+use crate::displacement::{Advance, FrontId, Outflow};
 
 /// An event function.
 #[derive(Debug, Clone, PartialEq)]
@@ -166,20 +165,20 @@ impl Dynamic {
     }
 
     /// The filling elements from which the defending phase has a path to an outlet.
-    pub(super) fn open_fillings(&self, ways: &WaysOut) -> Vec<usize> {
-        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.space.is_outlet[e] && ways.exists(e);
+    pub(super) fn open_fillings(&self, outflow: &Outflow) -> Vec<usize> {
+        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.space.is_outlet[e] && outflow.is_open(e);
         (0..self.state.filling.len()).filter(fills).collect()
     }
 
     /// The invading phase in a filling element.
-    pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling, ways: &WaysOut) -> FillingPore {
+    pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling, outflow: &Outflow) -> FillingPore {
         let own = self.displacement.elements()[element].area;
         let excess_areas: f64 = self.excess_areas(element).iter().map(|(_, area)| area).sum();
         // Menisci ahead of elements that the full element cuts off from the outlet do not advance.
         let (stopped, ahead): (Vec<_>, Vec<_>) = self
             .future_menisci(element)
             .into_iter()
-            .partition(|it| self.is_cut_off(ways, self.ahead_of(it.front), element));
+            .partition(|it| self.is_cut_off(outflow, self.ahead_of(it.front), element));
         let stopped: f64 = stopped.iter().map(|it| it.area(filling.curvature)).sum();
         let first = ahead.iter().map(|it| it.event()).reduce(f64::min);
         let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - excess_areas;

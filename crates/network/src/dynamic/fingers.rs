@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Dynamic;
-use crate::displacement::contains;
+use crate::displacement::{contains, edges};
 use crate::model::Configuration;
 use meniscus_core::math::{Bounds, Vec2};
 
@@ -65,7 +65,7 @@ impl Line {
 
     /// Its parts within a polygon, as places along it in m.
     fn within(self, outline: &[Vec2]) -> Vec<[f64; 2]> {
-        let edges = (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]));
+        let edges = edges(outline);
         let mut crossings: Vec<f64> = match self {
             Self::Straight { axis, at } => edges
                 .filter(|(a, b)| (a[axis] > at) != (b[axis] > at))

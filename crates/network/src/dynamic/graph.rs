@@ -1,6 +1,6 @@
 //! The network as a graph: links for flow between nodes of one pressure each.
 
-use crate::displacement::FrontId;
+use crate::displacement::{FrontId, Outflow};
 use crate::laplacian::Laplacian;
 
 /// The type of a link.
@@ -35,34 +35,8 @@ pub(super) struct Graph {
     pub(crate) nodes: usize,
     /// The node of the inlet if a rate is given.
     pub(crate) inlet: Option<usize>,
-    /// Ways of the displaced phase to the outlet.
-    pub(crate) ways_out: WaysOut,
+    /// Paths of the displaced phase to the outlet.
+    pub(crate) outflow: Outflow,
     /// By gate: the link of its meniscus.
     pub(crate) link_of: Vec<Option<usize>>,
-}
-
-/// A way to the outlet for each element of the displaced phase that has one.
-#[derive(Debug, Clone)]
-pub(super) struct WaysOut {
-    /// The next element on the way; one at the outlet leads to itself.
-    pub(super) next: Vec<Option<usize>>,
-}
-
-impl WaysOut {
-    /// Whether an element has one.
-    pub(super) fn exists(&self, element: usize) -> bool {
-        self.next[element].is_some()
-    }
-
-    /// Whether the way of an element exists and avoids another one.
-    pub(super) fn avoid(&self, mut element: usize, other: usize) -> bool {
-        while element != other {
-            match self.next[element] {
-                Some(next) if next == element => return true,
-                Some(next) => element = next,
-                None => return false,
-            }
-        }
-        false
-    }
 }

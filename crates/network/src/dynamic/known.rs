@@ -58,7 +58,7 @@ impl Dynamic {
     /// The data of the next step.
     pub(super) fn known(&self, graph: &Graph) -> Known {
         let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
-        let open = self.open_fillings(&graph.ways_out);
+        let open = self.open_fillings(&graph.outflow);
         let filling_pores = self.bodies_with_links(graph, &drops, &open);
         let mut laws: Vec<CapillaryLaw> =
             graph.links.iter().enumerate().filter_map(|(index, link)| self.law(&filling_pores, index, link)).collect();
@@ -94,7 +94,7 @@ impl Dynamic {
         let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
         let with_link = |(link, &(resistance, _)): (&Link, &(f64, f64))| {
             let LinkKind::FillingPore(element) = link.kind else { return None };
-            let filling_pore = self.filling_pore(element, self.state.filling[element].as_ref()?, &graph.ways_out);
+            let filling_pore = self.filling_pore(element, self.state.filling[element].as_ref()?, &graph.outflow);
             let rate = self.filling_rate(graph, &filling_pore, resistance);
             let is_quick = rate * self.state.last_steps[0] * QUICK > filling_pore.full - filling_pore.area;
             let passes = is_quick && only == Some(element);

@@ -39,6 +39,7 @@
 
 mod capillary_curve;
 mod conductors;
+mod cut_off;
 mod event_functions;
 mod events;
 mod fingers;
@@ -52,7 +53,6 @@ pub(crate) mod solver;
 mod state;
 mod step;
 mod terms;
-mod ways_out;
 
 use std::sync::Arc;
 
