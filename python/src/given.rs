@@ -103,5 +103,5 @@ fn problem(key: &str, error: &dyn std::fmt::Display) -> Problem {
     // A position in the JSON means nothing to the author of Python code.
     let text = error.to_string();
     let message = text.split(" at line ").next().unwrap_or_default().to_owned();
-    Problem { path: key.to_owned(), message, help: String::new() }
+    Problem::new(key, message, "")
 }

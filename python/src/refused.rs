@@ -2,6 +2,7 @@
 
 use meniscus::run::source::Refusal;
 use meniscus::{InputError, Mistake};
+use meniscus_case::NetworkOptions;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -90,7 +91,7 @@ impl Refused {
                 let shown = |problem: &meniscus_core::input::Problem| PythonMistake {
                     file: None,
                     location: None,
-                    key: Some(parameter(&problem.path)).filter(|key| !key.is_empty()),
+                    key: Some(NetworkOptions::name_of(&problem.path).replace('-', "_")).filter(|key| !key.is_empty()),
                     message: problem.message.clone(),
                     help: problem.help.clone(),
                 };
@@ -144,14 +145,4 @@ fn key_at(text: &str, line: usize) -> Option<String> {
     let parts: Vec<String> =
         Some(indexed).filter(|it| !it.is_empty()).into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
     (!parts.is_empty()).then(|| parts.join("."))
-}
-
-/// The parameter of `meniscus.network` that corresponds to a key of a case file.
-fn parameter(key: &str) -> String {
-    match key.trim_start_matches("network.").trim_start_matches("geometry.") {
-        "wetting.young.contact-angle-deg" => "angle_deg".to_owned(),
-        "interface.tension" => "tension".to_owned(),
-        sides if sides.starts_with("sides") => "periodic".to_owned(),
-        other => other.replace(['.', '-'], "_"),
-    }
 }

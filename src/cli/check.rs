@@ -10,7 +10,7 @@ use super::run::built;
 use super::source;
 use crate::run::advice::Advice;
 use crate::run::checked::{self, Checked};
-use crate::run::description::description;
+use crate::run::description::{description, slip_of_lines};
 use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
@@ -73,15 +73,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     row("L", format_args!("= {} m, {}", readable(length.value), length.name));
     row("U", format_args!("= {} m/s, {formula}", readable(speed)));
-    if let Model::Sph(sph) = &case.model
-        && sph.has_lines_that_slip_by_a_spacing()
-    {
-        row(
-            "lines",
-            "contact lines slip by one spacing, and their speeds depend on it: give sph.walls.slip-length, or sph.wetting.cox with \
-             the slip length of the wall in nanometers; static states do not depend on it",
-        );
-    }
+    slip_of_lines(case).iter().for_each(|slip| row("lines", slip));
     advice.iter().for_each(print_advice);
     warnings.iter().for_each(|warning| row("WARNING", warning));
     Ok(DONE)

@@ -84,6 +84,9 @@ fn summary(found: &Comparison) {
         both("breakthrough pressure", sides.map(|side| shown(side.breakthrough_pressure_pa, "Pa")));
     }
     both("saturation then", sides.map(|side| shown(side.saturation_at_breakthrough, "")));
+    for (name, side) in ["network", "direct"].into_iter().zip(sides) {
+        side.no_breakthrough.iter().for_each(|why| say(format_args!("  {name:<11} no breakthrough measured: {why}")));
+    }
     both("wall time", sides.map(|side| duration(side.wall_time_s)));
     let processor = |side: &Side| side.processor_time_s.map_or("not measured".to_owned(), duration);
     both("processor time", sides.map(processor));

@@ -81,11 +81,9 @@ fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Resu
 
 /// Problems of keys that correspond to command-line options.
 fn of_options(problems: &[Problem]) -> Failure {
-    let option =
-        |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
     let lines: Vec<String> = problems
         .iter()
-        .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
+        .map(|problem| format!("--{}: {}; {}", NetworkOptions::name_of(&problem.path), problem.message, problem.help))
         .map(|line| line.trim_end_matches("; ").to_owned())
         .collect();
     Failure::new(BAD_INPUT, lines.join("\n"))

@@ -57,6 +57,23 @@ pub(crate) fn doubts(case: &Case) -> Vec<String> {
     flat.into_iter().chain(never_at_rest(sph)).chain(ends_early(case, sph)).collect()
 }
 
+/// A slip of contact lines that the spacing does not resolve, and the way out.
+pub(crate) fn slip_of_lines(case: &Case) -> Option<String> {
+    let Model::Sph(sph) = &case.model else { return None };
+    let is_given = sph.has_unresolved_slip()?;
+    let [length, spacing] = [sph.walls.line_slip_length, sph.spacing].map(rounded);
+    let slip = match is_given {
+        true => format!(
+            "the slip length of {length:e} m is below the spacing of {spacing:e} m: the speeds of contact lines depend on the spacing"
+        ),
+        false => "contact lines slip by one spacing, and their speeds depend on it".to_owned(),
+    };
+    let resolved = if is_given { "give a slip length of at least two spacings" } else { "give sph.walls.slip-length" };
+    Some(format!(
+        "{slip}: {resolved}, or sph.wetting.cox with the slip length of the wall in nanometers; static states do not depend on it"
+    ))
+}
+
 /// A weight along an unbounded wall, and a contact line that is not pinned.
 fn never_at_rest(sph: &Sph) -> Option<String> {
     let other = sph.non_wetting?;

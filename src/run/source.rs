@@ -14,6 +14,9 @@ const DEFAULT_NAME: &str = "four-discs";
 /// The note on pressures if no tension was given.
 const WITHOUT_TENSION: &str = "no tension is given: pressures are those of a tension of 1 N/m; multiply them by yours";
 
+/// The note on menisci if no angle was given.
+const WITHOUT_ANGLE: &str = "no contact angle is given: it is 0 degrees, complete wetting; give yours by --angle-deg";
+
 /// A checked case with its name.
 #[derive(Debug)]
 pub struct Source {
@@ -156,6 +159,9 @@ fn network_of(name: &str, read: Imported, options: &NetworkOptions) -> Result<So
     let Imported { spec, depth: of_file, mut notes } = read;
     if options.has_interface() && options.tension.is_none() {
         notes.push(WITHOUT_TENSION.to_owned());
+    }
+    if options.has_interface() && options.angle_deg.is_none() {
+        notes.push(WITHOUT_ANGLE.to_owned());
     }
     let geometry: GeometrySpec = spec;
     let title = format!("Network of {name}");

@@ -297,6 +297,13 @@ fn a_throat_that_is_not_resolved_and_a_drop_in_the_solid_are_placed_in_the_case_
     {
         assert!(error.contains(part), "{error}");
     }
+    // Half a width above the bottom wall of the domain.
+    let at_side = Facts { throat: Some((5.0e-5, meniscus_core::math::Vec2::new(0.0, -9.75e-4))), ..facts };
+    let error = loaded.refuse(check_against(&loaded.case, &at_side)).unwrap_err().render();
+    let error = error.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+    for part in ["between a solid and the wall of the side `bottom`", "move that side until it cuts the solid"] {
+        assert!(error.contains(part), "{error}");
+    }
     let fine = Facts { throat: Some((1.0e-3, meniscus_core::math::Vec2::zeros())), wall_distance: &|_| 1.0, ..facts };
     assert!(loaded.refuse(check_against(&loaded.case, &fine)).is_ok());
 }

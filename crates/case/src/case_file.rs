@@ -95,6 +95,15 @@ impl Model {
             Self::ThinFilm(_) => None,
         }
     }
+
+    /// Its table in a case file.
+    pub(crate) fn table(&self) -> &'static str {
+        match self {
+            Self::Sph(_) => "sph",
+            Self::ThinFilm(_) => "thin-film",
+            Self::Network(_) => "network",
+        }
+    }
 }
 
 /// A checked case as TOML, with defaults, presets, overrides and files resolved: it loads to the same case.

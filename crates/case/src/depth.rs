@@ -1,7 +1,8 @@
 //! `depth` of `[geometry]`: which models support it, and what it requires.
 
-use super::case_file::Model;
+use super::case_file::{Model, RawCase};
 use super::network::films;
+use super::side::SIDES;
 use super::wetting::PatchedWall;
 use meniscus_core::input::{Checker, Problem};
 use meniscus_geometry::spec::GeometrySpec;
@@ -56,6 +57,21 @@ pub(super) fn depth(
         return;
     };
     checker.problems.extend(geometry.and_then(|geometry| implausible_depth(depth, geometry)));
+}
+
+/// Refuses rates of a case whose unit is not that of its geometry, with or without a depth.
+pub(super) fn refuse_rates(checker: &mut Checker, raw: &RawCase, has_depth: bool) {
+    let dynamic = raw.network.as_ref().and_then(|network| network.dynamic.as_ref());
+    let of_network = dynamic.and_then(|dynamic| dynamic.rate).map(|rate| ("network.dynamic.rate".to_owned(), rate));
+    let sides = raw.sph.as_ref().and_then(|sph| sph.sides.as_ref()).and_then(|sides| sides.open.as_ref());
+    let of_sides = sides.into_iter().flat_map(|open| {
+        let tables = SIDES.iter().zip([&open.left, &open.right, &open.bottom, &open.top]);
+        tables
+            .filter_map(|(side, table)| Some((format!("sph.sides.open.{side}.flow-rate"), table.as_ref()?.flow_rate?)))
+    });
+    for (path, rate) in of_network.into_iter().chain(of_sides) {
+        rate.refuse_other_unit(checker, &path, has_depth);
+    }
 }
 
 /// What is wrong with a depth in m that does not fit a geometry.

@@ -1,6 +1,7 @@
 //! Checks of a case that need its actual geometry: whether the spacing resolves the narrowest throat, and whether the initial phases lie in the pore.
 
 use super::case_file::{Case, Model};
+use super::side::{SIDES, Side};
 use super::sph::Sph;
 use meniscus_core::input::Problem;
 use meniscus_core::math::{Vec2, rounded_down};
@@ -30,23 +31,39 @@ impl std::fmt::Debug for Facts<'_> {
 /// What is wrong with a case for its actual geometry.
 pub fn check_against(case: &Case, facts: &Facts) -> Vec<Problem> {
     let Model::Sph(sph) = &case.model else { return Vec::new() };
-    let mut problems: Vec<Problem> = throat(sph, facts).into_iter().collect();
+    let mut problems: Vec<Problem> = throat(case, sph, facts).into_iter().collect();
     problems.extend(regions(case, sph, facts));
     problems
 }
 
-fn throat(sph: &Sph, facts: &Facts) -> Option<Problem> {
+fn throat(case: &Case, sph: &Sph, facts: &Facts) -> Option<Problem> {
     let (width, center) = facts.throat?;
     let count = width / sph.spacing;
-    (count < FEWEST_IN_THROAT).then(|| Problem {
-        path: "sph.spacing".to_owned(),
-        message: format!(
-            "the narrowest throat is {width:.3e} m wide at ({:.3e}, {:.3e}) m and has {count:.1} particles, \
+    (count < FEWEST_IN_THROAT).then(|| {
+        let side = wall_side(case, width, center);
+        let between =
+            side.map_or(String::new(), |side| format!(", between a solid and the wall of the side `{side}`,"));
+        let message = format!(
+            "the narrowest throat is {width:.3e} m wide{between} at ({:.3e}, {:.3e}) m and has {count:.1} particles, \
              at least {FEWEST_IN_THROAT} are needed",
             center.x, center.y
-        ),
-        help: format!("a spacing of {:.2e} m or less would do", rounded_down(width / FEWEST_IN_THROAT)),
+        );
+        let largest = rounded_down(width / FEWEST_IN_THROAT);
+        let move_it = if side.is_some() { "move that side until it cuts the solid or is clear of it; " } else { "" };
+        let help = format!("{move_it}a spacing of {largest:.2e} m or less would do");
+        Problem::new("sph.spacing", message, help)
     })
+}
+
+/// The side of the domain whose wall is one of both walls of a throat of this width in m, if one is.
+fn wall_side(case: &Case, width: f64, center: Vec2) -> Option<&'static str> {
+    /// Rounding of a center that lies half a width from the side.
+    const NEAR: f64 = 0.501;
+    let (min, max) = (case.geometry.min, case.geometry.max);
+    let distances = [center.x - min[0], max[0] - center.x, center.y - min[1], max[1] - center.y];
+    let sides = SIDES.into_iter().zip(case.model.sides()?.each()).zip(distances);
+    let mut walls = sides.filter(|((_, kind), _)| *kind == Side::Wall);
+    walls.find(|(_, distance)| *distance <= NEAR * width).map(|((name, _), _)| name)
 }
 
 fn regions(case: &Case, sph: &Sph, facts: &Facts) -> Vec<Problem> {
@@ -65,14 +82,13 @@ fn regions(case: &Case, sph: &Sph, facts: &Facts) -> Vec<Problem> {
         }
     }
     let lost = (0..count).filter(|index| !in_pore[*index]);
-    lost.map(|index| Problem {
-        path: format!("{}[{index}]", sph.initial.key),
-        message: if in_domain[index] {
+    lost.map(|index| {
+        let message = if in_domain[index] {
             "the initial shape lies entirely inside the solid".to_owned()
         } else {
             format!("the initial shape contains no particle of the domain at a spacing of {:e} m", sph.spacing)
-        },
-        help: "move it into the pore, or make it larger".to_owned(),
+        };
+        Problem::new(format!("{}[{index}]", sph.initial.key), message, "move it into the pore, or make it larger")
     })
     .collect()
 }

@@ -24,6 +24,7 @@ mod output;
 mod permeability;
 pub mod preset;
 mod quick;
+mod rate;
 mod read_geometry;
 mod records;
 mod relative_permeability;
@@ -35,6 +36,7 @@ mod sph;
 mod start;
 mod steady;
 mod surface_force;
+mod title;
 mod wetting;
 
 pub use case_file::{Case, Model};

@@ -7,6 +7,7 @@ use super::kind::{drawing_in_place_of_a_case, other_than_a_case};
 use super::magnitude::magnitudes;
 use super::network::state::Start;
 use super::read_geometry::{KeptGeometry, Origin, read, read_geometry};
+use super::title::title;
 use super::{depth, film, network, permeability, records, relative_permeability, shapes, sph, start};
 use meniscus_core::input::{Checker, Document, InputError, Overrides, Problem, Renamed};
 use meniscus_drawings::import::{self, Beyond};
@@ -86,6 +87,7 @@ pub fn load_from(origin: &Origin, overrides: &Overrides, kept: Option<&KeptGeome
     let mut checker = Checker::default();
     let written = one_model(&mut checker, std::mem::take(&mut reading.value));
     let mut raw = written.clone().in_range(&mut checker, "");
+    raw.title = raw.title.map(|of_file| title(&of_file, overrides));
     checker.format(raw.format);
     let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
@@ -119,6 +121,7 @@ pub fn load_from(origin: &Origin, overrides: &Overrides, kept: Option<&KeptGeome
     let mut model = model(&mut checker, &mut raw, geometry.as_ref(), start);
     let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth).or(of_file);
     depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref(), has_wetting_table);
+    depth::refuse_rates(&mut checker, &raw, depth.is_some());
     if let (Some(raw), Some(Model::Network(network))) = (raw.network.as_mut(), model.as_ref()) {
         raw.films = network.displacement.as_ref().and_then(|displacement| displacement.films);
     }

@@ -44,6 +44,16 @@ pub struct NetworkOptions {
 }
 
 impl NetworkOptions {
+    /// The name of the option that gives the key `path` of a case file.
+    pub fn name_of(path: &str) -> String {
+        match path.trim_start_matches("network.").trim_start_matches("geometry.") {
+            "wetting.young.contact-angle-deg" => "angle-deg".to_owned(),
+            "interface.tension" => "tension".to_owned(),
+            sides if sides.starts_with("sides") => "periodic".to_owned(),
+            other => other.replace(['.', '_'], "-"),
+        }
+    }
+
     /// Whether menisci matter: for a displacement, or for entry pressures.
     pub fn has_interface(&self) -> bool {
         self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()

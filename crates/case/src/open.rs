@@ -1,6 +1,7 @@
 //! `[sph.sides.open]`: prescribed values at inlets, outlets and periodic sides with a flow, and their consistency.
 
 use super::fluid::FluidPhase;
+use super::rate::Rate;
 use super::side::{SIDES, Side, Sides};
 use meniscus_core::input::Checker;
 use meniscus_core::input::tables::{Key, checked_tables, tables, words};
@@ -27,7 +28,7 @@ tables! {
         /// Mean inward velocity over the opening in m/s.
         pub velocity: f64 => Key::positive("a mean velocity inwards in m/s"),
         /// Inward flow rate per meter of depth in m²/s, with `geometry.depth` that of the chip in m³/s.
-        pub flow_rate: f64 => Key::positive("a flow rate inwards in m2/s, or in m3/s with geometry.depth"),
+        pub flow_rate: Rate => Key::positive("a flow rate inwards in m2/s, or in m3/s with geometry.depth"),
         /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
         pub profile: Profile,
         /// Phase that enters (default: the phase there at time zero).
@@ -126,9 +127,13 @@ fn is_open(kind: Side) -> bool {
 fn side(checker: &mut Checker, name: &str, kind: Side, table: &mut Option<RawOpenSide>) -> Option<Open> {
     let raw = table.as_ref();
     let path = at(name);
-    let is_given = |key: &str, value: Option<f64>| checker.is_given(&format!("{path}.{key}"), value.as_ref());
+    let is_given = |key: &str, value: bool| value || checker.is_refused(&format!("{path}.{key}"));
     let given = raw.map_or([false; 3], |raw| {
-        [raw.pressure.is_some(), is_given("velocity", raw.velocity), is_given("flow-rate", raw.flow_rate)]
+        [
+            raw.pressure.is_some(),
+            is_given("velocity", raw.velocity.is_some()),
+            is_given("flow-rate", raw.flow_rate.is_some()),
+        ]
     });
     let (allowed, example): ([bool; 3], &str) = match kind {
         Side::Inlet => {
@@ -170,7 +175,7 @@ fn side(checker: &mut Checker, name: &str, kind: Side, table: &mut Option<RawOpe
     let has_profile = raw.profile.is_some();
     let drive = match (raw.velocity, raw.flow_rate) {
         (Some(velocity), _) => Drive::Velocity(velocity, *raw.profile.get_or_insert(Profile::Plug)),
-        (_, Some(rate)) => Drive::FlowRate(rate, *raw.profile.get_or_insert(Profile::Plug)),
+        (_, Some(rate)) => Drive::FlowRate(rate.value(), *raw.profile.get_or_insert(Profile::Plug)),
         _ => Drive::Pressure(*raw.pressure.get_or_insert_default()),
     };
     if has_profile && !given[1] && !given[2] {

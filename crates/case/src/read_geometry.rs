@@ -158,7 +158,7 @@ fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, N
                 (format!("{}: {}", problem.path, problem.message), problem.help.clone())
             })),
         },
-        error => NotRead::File(Mistake::of_file(&name, error.to_string(), "").into()),
+        error => NotRead::File(Mistake::of_file(&name, error.to_string(), Format::way_from(path)).into()),
     })
 }
 

@@ -6,7 +6,7 @@ use super::measures::{offers, unmeasured};
 use super::network::NetworkDisplacement;
 use super::output::{Compression, Expectation, Output, RawExpectation};
 use super::steady::{FEWEST_ROWS, SteadyStop, WINDOWS};
-use meniscus_core::input::Checker;
+use meniscus_core::input::{Checker, Problem};
 use meniscus_core::math::{rounded_down, rounded_up};
 use meniscus_geometry::spec::GeometrySpec;
 
@@ -172,18 +172,28 @@ pub(super) fn expectations(
     let is_steady = raw.time.as_ref().is_some_and(|time| time.steady.is_some());
     let offers = model.map(|model| offers(model, geometry, is_steady));
     let raw = raw.expect.get_or_insert_default().iter().enumerate();
-    let one = |(index, raw)| expectation(checker, &format!("expect[{index}]"), raw, offers.as_deref());
+    let offers = model.zip(offers.as_deref()).map(|(model, offers)| (model.table(), offers));
+    let one = |(index, raw)| expectation(checker, &format!("expect[{index}]"), raw, offers);
     raw.filter_map(one).collect()
 }
 
-fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Option<&[Offer]>) -> Option<Expectation> {
+/// One of them; `offers` are the table of the model and the measures of all models.
+fn expectation(
+    checker: &mut Checker,
+    at: &str,
+    raw: &RawExpectation,
+    offers: Option<(&'static str, &[Offer])>,
+) -> Option<Expectation> {
     match (raw.measure.as_deref(), offers) {
         (Some(name), _) if name.trim().is_empty() => {
             checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
         }
-        (Some(name), Some(offers)) => {
+        (Some(name), Some((table, offers))) => {
             if let Some((message, help)) = unmeasured(name, offers) {
-                checker.refuse(format!("{at}.measure"), message, help);
+                let problem = Problem::new(format!("{at}.measure"), message, help);
+                // What is wrong in the table of the model may be what gives the measure.
+                let given_elsewhere = offers.iter().any(|offer| offer.names.contains(&name));
+                checker.problems.push(if given_elsewhere { problem.caused_by(table) } else { problem });
             }
         }
         _ => {}

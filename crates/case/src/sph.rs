@@ -120,13 +120,13 @@ impl Sph {
         self.depth.unwrap_or(1.0)
     }
 
-    /// Whether contact lines slip by a spacing, with an angle that does not compensate for it.
-    pub fn has_lines_that_slip_by_a_spacing(&self) -> bool {
+    /// Whether the spacing does not resolve the slip of contact lines, and the angle does not compensate for it; `Some(true)` where the case gives a slip length
+    /// all the same.
+    pub fn has_unresolved_slip(&self) -> Option<bool> {
         let law = self.wetting_model.filter(|law| !matches!(law, Wetting::Cox(_) | Wetting::CoxVoinov(_)));
-        law.is_some()
-            && self.acting_tension() > 0.0
-            && self.walls.line_slip_length == self.spacing
-            && self.walls.slip_length == 0.0
+        let length = law.filter(|_| self.acting_tension() > 0.0).map(|_| self.walls.line_slip_length)?;
+        let is_given = length != self.spacing || self.walls.slip_length > 0.0;
+        (length < self.spacing || !is_given).then_some(is_given)
     }
 }
 

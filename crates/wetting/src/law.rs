@@ -139,7 +139,7 @@ pub trait Parameters: Sized {
 /// The law, if its parameters are present, in range and consistent; `at` is the key path of its table.
 pub(super) fn checked<L: WettingModel>(raw: &L::Raw, checker: &mut Checker, at: &str) -> Option<L> {
     let law = L::checked(raw, checker, at)?;
-    if let Some(Problem { path, message, help }) = law.contradiction() {
+    if let Some(Problem { path, message, help, .. }) = law.contradiction() {
         checker.refuse(format!("{at}.{path}"), message, help);
         return None;
     }

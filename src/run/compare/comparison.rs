@@ -22,6 +22,9 @@ pub(crate) struct Side {
     pub breakthrough_pressure_pa: Option<f64>,
     /// Saturation of the invading phase at breakthrough.
     pub saturation_at_breakthrough: Option<f64>,
+    /// Why there is no breakthrough, or no pressure of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_breakthrough: Option<String>,
     /// Permeability along x in m²; `None` if not measured.
     pub permeability_m2: Option<f64>,
     /// Wall time in s.

@@ -57,8 +57,15 @@ fn table(comparison: &Comparison) -> String {
         row("wall time in s", of(&|side| format!("{:.2}", side.wall_time_s))),
         row("processor time in s", of(&|side| seconds(side.processor_time_s))),
     ];
+    let missing: String = ["network", "direct simulation"]
+        .into_iter()
+        .zip(both)
+        .filter_map(|(name, side)| {
+            Some(format!("<p>No breakthrough of the {name}: {}.</p>\n", side.no_breakthrough.as_ref()?))
+        })
+        .collect();
     format!(
-        "<table>\n<tr><th></th><th>network</th><th>direct simulation</th></tr>\n{}</table>\n<p>Rank correlation of the order in which {} \
+        "<table>\n<tr><th></th><th>network</th><th>direct simulation</th></tr>\n{}</table>\n{missing}<p>Rank correlation of the order in which {} \
          elements were filled: {}. Overlap of the invaded areas, mean over all records: {}.</p>\n",
         rows.concat(),
         comparison.elements_in_both,

@@ -103,6 +103,7 @@ fn side(track: &Track, outlet: &[usize], is_in_time: bool, invading: FluidPhase)
             pressure_difference_pa: pressures,
             breakthrough_time_s: track.breakthrough.map(|[time, _]| time),
             saturation_at_breakthrough: track.breakthrough.map(|[_, saturation]| saturation),
+            no_breakthrough: track.breakthrough.is_none().then(|| until_the_end(track)),
             ..common
         };
     }
@@ -114,12 +115,29 @@ fn side(track: &Track, outlet: &[usize], is_in_time: bool, invading: FluidPhase)
     };
     let until = through.map(|record| track.records[..=record].iter().map(|it| it.pressure));
     let farthest = until.map(|pressures| pressures.fold(f64::NAN, farther)).filter(|pressure| pressure.is_finite());
+    let no_breakthrough = match (through, farthest) {
+        (None, _) if outlet.is_empty() => Some("there is no outlet".to_owned()),
+        (None, _) => Some(until_the_end(track)),
+        (Some(_), None) => Some("no capillary pressure was recorded until then".to_owned()),
+        (Some(_), Some(_)) => None,
+    };
     Side {
+        no_breakthrough,
         capillary_pressure_pa: pressures,
         breakthrough_pressure_pa: farthest,
         saturation_at_breakthrough: through.map(|record| invading.saturation(track.records[record].saturation)),
         ..common
     }
+}
+
+/// What a displacement lacks that ends before its breakthrough.
+fn until_the_end(track: &Track) -> String {
+    let Some(last) = track.records.last() else { return "there is no record".to_owned() };
+    let end = if last.time.is_finite() { format!("at {:.4e} s", last.time) } else { "at its last event".to_owned() };
+    format!(
+        "the invading phase had not filled a pore at the outlet {end}, with a wetting saturation of {:.3}",
+        last.saturation
+    )
 }
 
 /// Results from both together; the sides are filled in later.

@@ -4,7 +4,7 @@ use super::dynamic::{DynamicDrive, drive};
 use super::state::Start;
 use super::table::{Events, FilmModel, RawNetwork, RawProcess};
 use crate::side::Sides;
-use meniscus_core::input::Checker;
+use meniscus_core::input::{Checker, Problem};
 
 /// A displacement.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -143,11 +143,9 @@ pub(super) fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &S
 fn stop(checker: &mut Checker, raw: &mut RawNetwork) -> Stop {
     let given = raw.stop.get_or_insert_default();
     if given.breakthrough == Some(true) && raw.outlet.is_none() {
-        checker.refuse(
-            "network.stop.breakthrough",
-            "breakthrough needs an outlet",
-            "add outlet = \"right\", say, or leave this out",
-        );
+        let help = "add outlet = \"right\", say, or leave this out";
+        let problem = Problem::new("network.stop.breakthrough", "breakthrough needs an outlet", help);
+        checker.problems.push(problem.caused_by("network.outlet"));
     }
     if checker.is_given("network.stop.injected", given.injected.as_ref()) && raw.dynamic.is_none() {
         checker.refuse(
@@ -179,10 +177,8 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("gravity", raw.gravity.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
-        checker.refuse(
-            format!("network.{key}"),
-            format!("`{key}` belongs to a displacement, and there is no inlet"),
-            "add inlet = \"left\", say; without an inlet the network is extracted and nothing is displaced",
-        );
+        let message = format!("`{key}` belongs to a displacement, and there is no inlet");
+        let help = "add inlet = \"left\", say; without an inlet the network is extracted and nothing is displaced";
+        checker.problems.push(Problem::new(format!("network.{key}"), message, help).caused_by("network.inlet"));
     }
 }

@@ -46,7 +46,7 @@ pub(super) fn drive(checker: &mut Checker, raw: &mut RawNetwork, is_cycle: bool)
             checker.refuse("network.dynamic.pressure-drop", message, "leave one of them out");
             None
         }
-        (true, false) => dynamic.rate.map(Drive::Rate),
+        (true, false) => dynamic.rate.map(|rate| Drive::Rate(rate.value())),
         (false, true) => dynamic.pressure_drop.map(Drive::PressureDrop),
         (false, false) => {
             checker.require("network.dynamic.rate", None, "rate = 1.0e-8 # m2/s, or pressure-drop = 500.0 # Pa")

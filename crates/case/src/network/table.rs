@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::measured::Measured;
 use crate::fluid::{RawInterface, RawPhases};
+use crate::rate::Rate;
 use crate::side::SideName;
 use crate::wetting::RawWetting;
 use meniscus_core::input::tables::{Key, checked_tables, tables, words};
@@ -82,8 +83,8 @@ tables! {
 
     /// What drives a displacement in time: a rate or a pressure drop.
     pub(crate) struct RawDynamic {
-        /// Injected area of the invading phase per time in m²/s, with `geometry.depth` the volume in m³/s (required without `pressure-drop`).
-        pub rate: f64 => Key::positive("a rate in m2/s"),
+        /// Injected area of the invading phase per time in m²/s, with `geometry.depth` the volume in m³/s, or a text with the unit, as `"5 uL/min"` (required without `pressure-drop`).
+        pub rate: Rate => Key::positive("a rate in m2/s"),
         /// Pressure at the inlet minus that at the outlet in Pa, 0 for spontaneous imbibition; with `gravity` without what the displaced phase at rest has
         /// (required without `rate`).
         pub pressure_drop: f64 => Key::not_negative("a pressure drop in Pa"),

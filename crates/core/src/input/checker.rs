@@ -18,7 +18,7 @@ pub struct Checker {
 impl Checker {
     /// Records a problem at the key path `path`, with a remedy.
     pub fn refuse(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
-        self.problems.push(Problem { path: path.into(), message: message.into(), help: help.into() });
+        self.problems.push(Problem::new(path, message, help));
     }
 
     /// Records what a reader should know of a value that is right.

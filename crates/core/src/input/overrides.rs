@@ -44,6 +44,15 @@ impl Overrides {
     }
 }
 
+impl Overrides {
+    /// Key path and value of each as given, the last one of a key alone.
+    pub fn changes(&self) -> Vec<(String, &str)> {
+        let last = |index: usize| !self.entries[index + 1..].iter().any(|one| one.steps == self.entries[index].steps);
+        let all = self.entries.iter().enumerate().filter(|(index, _)| last(*index));
+        all.map(|(_, one)| (path::write(&one.steps), one.text[one.key_length + 1..].trim())).collect()
+    }
+}
+
 impl Override {
     fn parse(text: &str) -> Result<Self, (String, &'static str)> {
         let Some((key, value)) = text.split_once('=') else {

@@ -11,12 +11,19 @@ pub struct Problem {
     pub message: String,
     /// A remedy.
     pub help: String,
+    /// Key or table whose mistakes may have caused this one: it is told only where that has none.
+    pub cause: Option<&'static str>,
 }
 
 impl Problem {
     /// A problem at `path`.
     pub fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { path: path.into(), message: message.into(), help: help.into() }
+        Self { path: path.into(), message: message.into(), help: help.into(), cause: None }
+    }
+
+    /// The same problem, which a mistake in the key or table `cause` may have caused.
+    pub fn caused_by(self, cause: &'static str) -> Self {
+        Self { cause: Some(cause), ..self }
     }
 
     /// A problem at `path` from the text of an error: its remedy follows the first semicolon.

@@ -66,13 +66,19 @@ impl Document {
 }
 
 impl<T> Reading<'_, T> {
-    /// All mistakes by location: those of reading, and `problems` unless they follow from those.
+    /// All mistakes by location: those of reading, and `problems` unless they follow from those or from one another.
     pub fn refuse(self, problems: Vec<Problem>) -> Vec<Mistake> {
         let mut mistakes = self.mistakes;
         let tree = self.document.tree();
         let mut more = 0;
+        let (causes, follow): (Vec<_>, Vec<_>) = problems.into_iter().partition(|problem| problem.cause.is_none());
+        let is_cause = |cause: &str| {
+            let mut paths = causes.iter().map(|one| &one.path).chain(&self.removed.paths);
+            paths.any(|path| path::is_within(path, cause) || path::is_within(cause, path))
+        };
+        let own: Vec<Problem> = follow.into_iter().filter(|one| !one.cause.is_some_and(is_cause)).collect();
         // Whatever was not read is not missing.
-        for problem in problems.into_iter().filter(|_| self.complete) {
+        for problem in causes.into_iter().chain(own).filter(|_| self.complete) {
             let steps = path::parse(&problem.path).unwrap_or_default();
             let steps = self.removed.in_file(&steps);
             if self.removed.explains(&path::write(&steps)) {

@@ -34,7 +34,25 @@ const FORMATS: &[(Format, &str, &[&str])] = &[
     (Format::Mask, "a mask", &["png", "tif", "tiff"]),
 ];
 
+/// Endings of files that other programs turn into a drawing, and how.
+const OTHERS: &[(&[&str], &str)] = &[
+    (
+        &["gds", "gds2", "gdsii", "oas"],
+        "open it in KLayout, File > Save As with the format DXF, and read that with the unit um",
+    ),
+    (&["dwg", "dgn"], "save it as DXF in a drawing program"),
+    (&["pdf", "eps", "ai", "ps"], "save it as SVG in a drawing program, Inkscape say"),
+    (&["jpg", "jpeg", "bmp", "gif"], "save it as PNG, which keeps edges sharp"),
+    (&["stl", "step", "stp", "obj"], "save a plane section of it as DXF or SVG: the pore is two-dimensional"),
+];
+
 impl Format {
+    /// The way out for a file that none of the formats has.
+    pub fn way_from(path: &Path) -> &'static str {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
+        OTHERS.iter().find(|known| known.0.contains(&ending.as_str())).map_or("", |known| known.1)
+    }
+
     /// The format of a file, by its extension.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
