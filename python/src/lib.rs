@@ -11,6 +11,7 @@ mod refused;
 mod study;
 
 use std::path::PathBuf;
+use std::time::Instant;
 
 use meniscus::run::checked;
 use meniscus::run::execute::{Finished, Job, Mode, RunError, execute, run_in_memory};
@@ -104,10 +105,12 @@ fn not_run(error: &RunError) -> Refused {
 fn check(py: Python<'_>, given: Given, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<String> {
     let how = Call { threads, progress, token: None };
     let found = call(py, how, |work| -> Result<String, Refused> {
+        let clock = Instant::now();
         let source = given.source()?;
         let mut solver = built(work, &source, false)?;
+        let built_s = clock.elapsed().as_secs_f64();
         let tried = &mut |fraction| work.tell(fraction, || "first steps are tried".to_owned());
-        let checked = checked::check(&source.case, solver.as_mut(), tried);
+        let checked = checked::check(&source.case, solver.as_mut(), built_s, tried);
         let checked = checked.map_err(|error| Refused::Solver(error.to_string()))?;
         checked.json().map_err(|error| Refused::Solver(error.to_string()))
     })?;

@@ -1,6 +1,7 @@
 //! `meniscus check`: builds the solver, does a few steps without any file, and reports what a run would be like.
 
 use std::fmt::Display;
+use std::time::Instant;
 
 use super::arguments::CheckArguments;
 use super::exit::{BUG, DONE, Failure, SOLVER_FAILED};
@@ -22,10 +23,11 @@ const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
 
 /// Reports what a run of the case would be like.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
+    let clock = Instant::now();
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
     let mut solver = built(&source, Mode::New)?;
-    let checked = tried(case, solver.as_mut())?;
+    let checked = tried(case, solver.as_mut(), clock.elapsed().as_secs_f64())?;
     if arguments.json {
         say(checked.json().map_err(Failure::with(BUG))?);
         return Ok(DONE);
@@ -42,7 +44,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         // Time steps end at events, which are not known in advance.
         match network.is_dynamic() {
             true => row("run", format_args!("until {end} s, or where [network.stop] says")),
-            false => row("run", format_args!("at most {steps} events, about {time}")),
+            false => row("run", format_args!("at most {steps} events, in less than {time}")),
         }
         advice.iter().for_each(print_advice);
         warnings.iter().for_each(|warning| row("WARNING", warning));
@@ -60,9 +62,9 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         Model::ThinFilm(_) if solver.steps_to(case.end).is_none() => {
             row("run", format_args!("{end} s in steps that grow with time, at most about {time}"));
         }
-        // When a run becomes steady is not known in advance.
-        _ if case.steady.is_some_and(|steady| steady.stop) => {
-            row("run", format_args!("{end} s or less, at most about {steps} steps and {time}"));
+        // When a run becomes steady or breaks through is not known in advance.
+        _ if found.is_upper_bound => {
+            row("run", format_args!("{end} s or less, in less than {steps} steps and {time}"));
         }
         _ => row("run", format_args!("{end} s in about {steps} steps, about {time}")),
     }
@@ -113,7 +115,7 @@ fn print_advice(advice: &Advice) {
 }
 
 /// Tries the first steps; shows the progress if they take long.
-fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
+fn tried(case: &Case, solver: &mut dyn Solver, built_s: f64) -> Result<Checked, Failure> {
     /// From this number of particles or nodes on, a step takes a tenth of a second and more.
     const MANY: usize = 100_000;
     let unknowns = solver.statistics().unknowns;
@@ -121,7 +123,7 @@ fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
         tell(format_args!("the first steps of {unknowns} particles are tried: five, or as many as ten seconds allow"));
     }
     let mut display = ProgressDisplay::new();
-    let found = checked::check(case, solver, &mut |fraction| display.trial(fraction));
+    let found = checked::check(case, solver, built_s, &mut |fraction| display.trial(fraction));
     display.finish();
     found.map_err(Failure::with(SOLVER_FAILED))
 }

@@ -73,7 +73,8 @@ fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> T
         row.push(cell(&|trial| readable(trial.steps)));
         let mebibytes = memory_of(Some(estimate)) as f64 / BYTES_PER_MEBIBYTE;
         row.push(cell(&|_| format!("{mebibytes:.0} MiB")));
-        row.push(cell(&|trial| duration(trial.duration_s)));
+        let bound = |trial: &Trial| if trial.is_upper_bound { "less than " } else { "" };
+        row.push(cell(&|trial| format!("{}{}", bound(trial), duration(trial.duration_s))));
         row.push(result.state.word().to_owned());
         row
     };
@@ -92,8 +93,10 @@ fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String
     let mut memory: Vec<u64> = open().map(|(_, estimate)| memory_of(Some(estimate))).collect();
     memory.sort_unstable_by(|a, b| b.cmp(a));
     let memory = memory.iter().take(cores.jobs).sum::<u64>() as f64 / BYTES_PER_MEBIBYTE;
+    let is_bound = open().any(|(_, estimate)| estimate.as_ref().is_ok_and(|trial| trial.is_upper_bound));
+    let [less_than, about] = if is_bound { ["less than ", "less than"] } else { ["", "about"] };
     format!(
-        "{} runs, {} to do: {} of work, about {} with {} at once on {} thread{} each, up to {memory:.0} MiB",
+        "{} runs, {} to do: {less_than}{} of work, {about} {} with {} at once on {} thread{} each, up to {memory:.0} MiB",
         results.len(),
         open().count(),
         duration(total),

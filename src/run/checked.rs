@@ -18,15 +18,20 @@ pub struct Checked {
     pub(crate) advice: Option<Advice>,
 }
 
-/// Tries the first steps of a case with its solver at time zero, without any file; `tried` receives the completed fraction.
+/// Tries the first steps of a case with its solver at time zero, which took `built_s` (s) to build, without any file; `tried` receives the completed fraction.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
-pub fn check(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Checked, SolverError> {
+pub fn check(
+    case: &Case,
+    solver: &mut dyn Solver,
+    built_s: f64,
+    tried: &mut dyn FnMut(f64),
+) -> Result<Checked, SolverError> {
     // The warnings at the start of a run: they do not depend on the number of trial steps.
     let mut warnings = setup::warnings(case, solver, &Series::default());
     warnings.extend(doubts(case));
-    let trial = trial(case, solver, tried)?;
+    let trial = trial(case, solver, built_s, tried)?;
     let advice = advice::advice(case, Some(&trial));
     Ok(Checked { trial, warnings, advice })
 }

@@ -8,8 +8,8 @@ use super::execute::drawn;
 use super::memory;
 use super::schedule::Schedule;
 use super::sink::compression;
-use meniscus_case::Case;
-use meniscus_core::solver::{Solver, SolverError};
+use meniscus_case::{Case, Model};
+use meniscus_core::solver::{Series, Solver, SolverError};
 use meniscus_output::vtk;
 
 /// Number of trial steps; the first ones set up what later ones reuse.
@@ -35,20 +35,29 @@ pub(crate) struct Trial {
     pub(crate) steps: f64,
     /// Expected wall time in s with the present number of threads.
     pub(crate) duration_s: f64,
+    /// Whether the run may end sooner, so that steps and wall time are upper bounds.
+    #[serde(default)]
+    pub(crate) is_upper_bound: bool,
     /// Peak memory of this process so far in bytes, if the system reports it.
     pub(crate) memory_bytes: Option<u64>,
 }
 
-/// Does the first steps of a case with its solver at time zero: five, or twenty if there is no other estimate of their number, or as many as ten seconds allow,
-/// at least one. `tried` receives the completed fraction of the five, after each and before the first.
+/// Does the first steps of a case with its solver at time zero, which took `built_s` (s) to read and build: five, or twenty if there is no other estimate of
+/// their number, or as many as ten seconds allow, at least one. `tried` receives the completed fraction of the five, after each and before the first.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
-pub(crate) fn trial(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Trial, SolverError> {
-    trial_within(case, solver, PATIENCE, tried)
+pub(crate) fn trial(
+    case: &Case,
+    solver: &mut dyn Solver,
+    built_s: f64,
+    tried: &mut dyn FnMut(f64),
+) -> Result<Trial, SolverError> {
+    let found = trial_within(case, solver, PATIENCE, tried)?;
+    Ok(Trial { duration_s: found.duration_s + built_s, ..found })
 }
 
-/// [`trial`] with as many steps as `patience` (s) allows.
+/// [`trial`] without building, with as many steps as `patience` (s) allows.
 fn trial_within(
     case: &Case,
     solver: &mut dyn Solver,
@@ -79,19 +88,31 @@ fn trial_within(
     let more = solver.steps().saturating_sub(1);
     // The first step sets up what the others reuse.
     let per_step = if more == 0 { first_s } else { (clock.elapsed().as_secs_f64() - first_s) / more as f64 };
-    // Time and memory of a record.
-    let before_record = clock.elapsed().as_secs_f64();
-    let record = || (solver.sample(), solver.snapshot().into_owned(), solver.state());
-    let first = record();
-    let per_record = clock.elapsed().as_secs_f64() - before_record;
-    // A run needs most memory when it draws its picture while one record is being written and the next one waits.
-    let waiting = record();
-    let content = vtk::points(&first.1.particles, compression(&case.output));
-    let grid = first.1.grid.as_ref().map(|grid| vtk::grid(grid, compression(&case.output)));
-    let picture = drawn(case, solver, &solver.results());
-    drop((first, waiting, content, grid, picture));
+    // Time and memory of records of each kind, and of the end. A run needs most memory when it draws its picture while one record is being written and the next
+    // one waits.
+    let (sample, per_sample) = timed(|| solver.sample());
+    let (state, per_state) = timed(|| solver.state());
+    let waiting = solver.snapshot().into_owned();
+    let (frame, per_frame) = timed(|| {
+        let (form, snapshot) = (compression(&case.output), solver.snapshot().into_owned());
+        let files = [
+            Some(vtk::points(&snapshot.particles, form)),
+            snapshot.grid.as_ref().map(|grid| vtk::grid(grid, form)),
+            snapshot.interface.as_ref().map(|interface| vtk::lines(interface, form)),
+        ];
+        let layers: Vec<_> = solver.layers().iter().map(|layer| vtk::layer(layer, form)).collect();
+        (snapshot, files, layers)
+    });
+    let (ending, at_end) = timed(|| {
+        let results = solver.results();
+        (drawn(case, solver, &results).ok(), results.layers.len(), solver.measures(&Series::default()).len())
+    });
+    drop((sample, state, waiting, frame, ending));
+    let output = &case.output;
+    let kinds = [(output.series_every, per_sample), (output.vtk_every, per_frame), (output.restart_every, per_state)];
+    let recording: f64 = kinds.iter().map(|(every, seconds)| case.end / every * seconds).sum();
     // Steps that grow with time are cut short by every record, most of them late in the run.
-    let records = case.end / case.output.series_every.min(case.output.vtk_every).min(case.output.restart_every);
+    let records = case.end / kinds.iter().map(|(every, _)| *every).fold(f64::INFINITY, f64::min);
     let known = solver.steps_to(case.end).map(|left| (left + solver.steps() as f64 + records).ceil());
     let steps = known.unwrap_or_else(|| solver.steps() as f64 + steps_between(&schedule, solver.time(), info.dt));
     Ok(Trial {
@@ -99,9 +120,27 @@ fn trial_within(
         time_step_s: info.dt,
         limit: info.limit.to_owned(),
         steps,
-        duration_s: steps * per_step + records * per_record,
+        duration_s: steps * per_step + recording + at_end,
+        is_upper_bound: may_end_sooner(case),
         memory_bytes: memory::peak(),
     })
+}
+
+/// Whether a run of the case ends where something has happened, and not only at its end.
+fn may_end_sooner(case: &Case) -> bool {
+    case.steady.is_some_and(|steady| steady.stop)
+        || match &case.model {
+            Model::Sph(sph) => sph.stop_at_breakthrough,
+            Model::Network(_) => true,
+            Model::ThinFilm(_) => false,
+        }
+}
+
+/// What a function returns, and its wall time in s.
+fn timed<T>(function: impl FnOnce() -> T) -> (T, f64) {
+    let clock = Instant::now();
+    let found = function();
+    (found, clock.elapsed().as_secs_f64())
 }
 
 /// Number of steps of length `dt` (s) from `time` (s) to the end, with a step end at each record.
@@ -123,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_trial_counts_the_steps_that_are_left() {
-        let found = trial(&case(), &mut MockSolver::new(), &mut |_| {}).unwrap();
+        let found = trial(&case(), &mut MockSolver::new(), 0.0, &mut |_| {}).unwrap();
         // The mock takes steps of 0.0234 s, five to each of ten records.
         assert_eq!((found.unknowns, found.steps), (36, 50.0));
         assert!(found.duration_s > 0.0);
@@ -133,7 +172,7 @@ mod tests {
     fn a_solver_that_fails_at_once_is_told() {
         let mut solver = MockSolver::new();
         solver.fails_after = Some(2);
-        assert!(trial(&case(), &mut solver, &mut |_| {}).is_err());
+        assert!(trial(&case(), &mut solver, 0.0, &mut |_| {}).is_err());
     }
 
     #[test]
