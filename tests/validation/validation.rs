@@ -263,6 +263,10 @@ fn a_drop_within_its_hysteresis_window_does_not_creep() {
     let ways = [found("advancing-way-m-per-s"), found("receding-way-m-per-s")];
     // A tenth of a spacing in a second: the drop takes 5 ms for a swing.
     assert!(ways.iter().all(|way| way.abs() < 8.0e-6), "{ways:?}");
+    // Weight along the wall over the retention at the steepest, by the area of the initial half disc.
+    let weight = 900.0 * 13.2 * 0.5 * std::f64::consts::PI * 8.0e-4_f64.powi(2);
+    let share = weight / (0.025 * (70.0_f64.to_radians().cos() - 110.0_f64.to_radians().cos()));
+    assert!((found("drag-over-largest-retention") - share).abs() < 0.02, "{share}");
     // Ended before the drop comes near the end of the box.
     let found = pulled("sph.gravity=[21.7, 0.0]", "time.end=0.03");
     assert!(found("receding-way-m-per-s") > 2.0e-3, "{}", found("receding-way-m-per-s"));

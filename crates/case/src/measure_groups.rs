@@ -233,6 +233,9 @@ groups! {
         "drag-over-retention",
         // Net drag over the retention with the angles at the wall; 1 if the momentum balances
         "drag-over-wall-retention",
+        // Net drag over the largest retention, tension times (cosine of the receding minus cosine of the advancing angle) of the hysteresis: the share of its
+        // strength at which a drop holds, 1 where it lets go
+        "drag-over-largest-retention",
         // Net drag minus the retention with the angles at the wall, over the tension
         "momentum-balance-error",
         // First time at which less than one spacing of wall was wetted

@@ -72,6 +72,9 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
     let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
     let static_angle = s.flow.config.method.wetting.map_or(f64::NAN, |model| model.static_angle());
+    let range = s.flow.config.method.wetting.map(|model| model.hysteresis_range());
+    let [receding, advancing] = range.unwrap_or([f64::NAN; 2]);
+    let largest = Some(tension * (receding.cos() - advancing.cos())).filter(|largest| *largest > 0.0);
     let retention = "tension times (cosine of the receding less that of the advancing angle), mean over the last three quarters of the time";
     vec![
         measure("advancing-wall-angle-deg", angles[0].0, "deg").by(model).with_uncertainty(angles[0].1),
@@ -89,6 +92,10 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
         measure("drag-over-retention", drag / apparent, "").by("net drag over the retention by the apparent angles"),
         measure("drag-over-wall-retention", drag / at_wall, "")
             .by("net drag over the retention by the angles at the wall"),
+        measure("drag-over-largest-retention", largest.map_or(f64::NAN, |largest| drag / largest), "").by(match largest {
+            Some(_) => "net drag over the tension times (cosine of the receding less that of the advancing angle of the hysteresis)",
+            None => "the wall has a single static angle, which holds nothing",
+        }),
         measure("momentum-balance-error", balance.error(), "")
             .by("net drag less the retention by the angles at the wall, over the tension"),
     ]
