@@ -276,6 +276,31 @@ fn the_physics_touches_no_file() {
 }
 
 #[test]
+fn every_file_of_the_source_is_compiled() {
+    let mut files = Vec::new();
+    for folder in ["src", "tests", "crates", "python/src"] {
+        collect(&root().join(folder), &mut files);
+    }
+    let roots = ["main", "mod", "lib"];
+    let declares = |folder: &Path, name: &str| {
+        let beside = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let mut texts = beside.filter(|path| path.extension().is_some_and(|extension| extension == "rs"));
+        texts.any(|path| std::fs::read_to_string(path).unwrap().contains(&format!("mod {name};")))
+    };
+    let violations: Vec<String> = files
+        .iter()
+        .filter(|file| {
+            let (folder, name) = (file.parent().unwrap(), file.file_stem().unwrap().to_str().unwrap());
+            // Cargo itself finds what lies in these.
+            let is_target = ["tests", "examples", "benches"].iter().any(|kind| folder.ends_with(kind));
+            !(is_target || roots.contains(&name) || declares(folder, name) || declares(folder.parent().unwrap(), name))
+        })
+        .map(|file| format!("no `mod` names {}", file.display()))
+        .collect();
+    assert_none(&violations);
+}
+
+#[test]
 fn the_reader_of_imports_reads_what_rust_reads() {
     let lines = [
         "use crate::math::Vec2; // crate::cli",

@@ -12,3 +12,5 @@ mod chip;
 mod command_line;
 mod expectations;
 mod faults;
+mod mirrored;
+mod network_tutorial;

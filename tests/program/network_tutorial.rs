@@ -48,6 +48,13 @@ fn every_command_of_the_tutorial_runs_and_leaves_what_it_promises() {
     // A larger angle through the wetting phase needs less pressure to drain.
     let [pressure, less] = ["chip-drainage", "chip-drainage-80"].map(|name| measure(name, "breakthrough-pressure-Pa"));
     assert!(0.0 < less && less < pressure, "{less} and {pressure} Pa");
-    // The case is the same displacement as the command without a case.
-    assert_eq!(measure("chip", "residual-saturation"), measure("chip-drainage", "residual-saturation"));
+    // The same chip in DXF.
+    for name in ["pores", "throats", "events", "trapped-saturation", "breakthrough-pressure-Pa"] {
+        let [svg, dxf] = ["chip-drainage", "chip-dxf"].map(|out| measure(out, name));
+        assert!((svg / dxf - 1.0).abs() < 1e-4, "{name}: {svg} and {dxf}");
+    }
+    // The case is the same displacement as the command without a case, whose saturations are those of the pack.
+    for name in ["events", "breakthrough-pressure-Pa"] {
+        assert_eq!(measure("chip", name), measure("chip-drainage", name), "{name}");
+    }
 }

@@ -18,9 +18,7 @@ pub(super) fn title(of_file: &str, overrides: &Overrides) -> String {
     }
     let told: Vec<&(String, &str)> = changes
         .iter()
-        .filter(|(key, value)| {
-            !OTHER.contains(&&*table(key)) && value.len() <= LONGEST && !value.starts_with(['[', '{'])
-        })
+        .filter(|(key, value)| !OTHER.contains(&&*table(key)) && value.len() <= LONGEST && !value.starts_with('{'))
         .collect();
     let name = |key: &str| {
         let shortest = (1..).map(|steps| last_steps(key, steps));
@@ -54,7 +52,7 @@ mod tests {
     #[test]
     fn the_values_of_the_command_line_follow_the_title() {
         assert_eq!(titled(&[]), "A drop");
-        assert_eq!(titled(&["expect=[]", "time.end=2", "geometry.min=[0, 0]"]), "A drop");
+        assert_eq!(titled(&["expect=[]", "time.end=2", "geometry.shapes={ a = 1 }"]), "A drop");
         assert_eq!(titled(&["title=Another", "sph.spacing=1"]), "A drop");
         assert_eq!(
             titled(&["sph.wetting.young.contact-angle-deg=90", "sph.wetting.young.contact-angle-deg=120"]),
