@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from . import _meniscus
 from ._given import case_source, given, listener
+from .errors import warn
+from .typing import Case, Progress
 
 
 @dataclass(frozen=True)
@@ -29,16 +30,16 @@ class Check:
     memory_bytes: int | None
     """Peak memory of this process so far in bytes, including everything else in it; None if the system does not report it."""
     warnings: list[str]
-    """Warnings before a run."""
+    """Warnings before a run, issued as `MeniscusWarning` too."""
     advice: dict[str, Any] | None
     """Cost of network and direct simulation, and which is applicable, as in ``meniscus check --json``; None if only one model is possible."""
 
 
 def check(
-    case: Mapping[str, Any] | str | os.PathLike[str] | None = None,
+    case: Case | None = None,
     *,
     set: Mapping[str, Any] | None = None,
-    progress: Any = None,
+    progress: Progress | None = None,
     threads: int | None = None,
 ) -> Check:
     """Checks a case and estimates the cost of a run, as ``meniscus check`` does; the parameters are those of `run`.
@@ -48,7 +49,8 @@ def check(
         SolverError: one of the first steps failed.
 
     """
-    told = json.loads(_meniscus.check(given(case_source(case), set), threads, listener(progress)))
+    told: dict[str, Any] = json.loads(_meniscus.check(given(case_source(case), set), threads, listener(progress)))
+    warn(told["warnings"], 2)
     return Check(
         unknowns=told["unknowns"],
         steps=told["steps"],

@@ -5,18 +5,19 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import PurePath
 from typing import Any
 
 import numpy as np
 
+from ._optional import library
 from .errors import CaseError, Mistake
+from .typing import Case, Listener, Progress
 
-Progress = Callable[[float, str], object]
 
-
-def _refused(key: str, message: str, help: str = "") -> CaseError:
+def refused(key: str, message: str, help: str = "") -> CaseError:
+    """An error in a parameter or a key of a dict."""
     text = f"{key}: {message}" if key else message
     return CaseError(f"{text}\n  help: {help}" if help else text, [Mistake(message, help, key=key or None)])
 
@@ -32,12 +33,12 @@ def plain(value: Any, key: str = "") -> Any:
     if isinstance(value, PurePath):
         return str(value)
     if isinstance(value, float) and not math.isfinite(value):
-        raise _refused(key, f"expected a finite number, found {value}")
+        raise refused(key, f"expected a finite number, found {value}")
     if value is None:
-        raise _refused(key, "expected a value, found None", "leave the key out")
+        raise refused(key, "expected a value, found None", "leave the key out")
     if isinstance(value, bool | int | float | str):
         return value
-    raise _refused(key, f"expected a number, a text, a list or a dict, found {type(value).__name__}")
+    raise refused(key, f"expected a number, a text, a list or a dict, found {type(value).__name__}")
 
 
 def given(
@@ -59,24 +60,29 @@ def given(
     }
 
 
-def case_source(case: Mapping[str, Any] | str | os.PathLike[str] | None) -> tuple[str, Any]:
+def listed(names: str | Iterable[str] | None) -> list[str] | None:
+    """Names as a list; one name may stand alone."""
+    if names is None:
+        return None
+    return [names] if isinstance(names, str) else list(names)
+
+
+def case_source(case: Case | None) -> tuple[str, Any]:
     """The kind of a case, and the case."""
     if case is None:
         return ("built-in", "")
     return ("dict", case) if isinstance(case, Mapping) else ("file", case)
 
 
-def listener(progress: Any) -> Progress | None:
+def listener(progress: Progress | None) -> Listener | None:
     """A function of a fraction and a text, from such a function, a tqdm progress bar, or True."""
     if progress is None or progress is False:
         return None
     if progress is True:
-        from tqdm.auto import tqdm
-
-        progress = tqdm(total=1.0, bar_format="{l_bar}{bar}| {postfix}")
-    if not hasattr(progress, "update"):
+        progress = library("tqdm.auto", "progress").tqdm(total=1.0, bar_format="{l_bar}{bar}| {postfix}")
+    if callable(progress) and not hasattr(progress, "update"):
         return progress
-    bar = progress
+    bar: Any = progress
     if not getattr(bar, "total", None):
         bar.total = 1.0
 

@@ -1,4 +1,4 @@
-"""Pictures of results with matplotlib, and pyvista data sets. Both libraries are imported only here, and only on demand."""
+"""Pictures and curves of results with matplotlib, which is imported on demand only."""
 
 from __future__ import annotations
 
@@ -6,51 +6,99 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._optional import library
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
-    from .results import Fields, Result
+    from .results import Diagram, Fields, Result
 
 CURVES = ("capillary-pressure", "pressure-difference")
 # Wetting, non-wetting, solid.
 PHASES = ("#56b4e9", "#e69f00", "#8a8a8a")
+GRAY = "0.7"
 STROKES: dict[str, dict[str, Any]] = {
     "full": {},
-    "thin": {"color": "0.7", "linewidth": 0.6},
-    "dashed": {"color": "black", "linestyle": "--"},
+    "thin": {"color": GRAY, "linewidth": 0.6},
+    "dashed": {"linestyle": "--"},
     "dots": {"linestyle": "", "marker": "."},
 }
+# For full lines beyond the number of colors, so that all are distinct.
+FURTHER_STYLES = ("-", "-.", ":")
+# Units of lengths in m, the largest first.
+LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
+# Room of a tick label in inches, along x and along y.
+TICK_ROOM = (0.6, 0.35)
+# Ticks at most.
+MOST_TICKS = 6
+# Names of a legend beyond which its letters are small.
+FEW_NAMES = 5
+# Powers of ten between which the numbers of a curve are written in full.
+PLAIN_POWERS = (-2, 4)
 
 
-def plot(result: Result, kind: str | None, field: str | None, ax: Axes | None) -> Axes:
+def plot(result: Result, kind: str | None, field: str | None, label: str | None, ax: Axes | None) -> Axes:
     """Draws a picture or a diagram."""
-    import matplotlib.pyplot as plt
-
-    ax = plt.subplots()[1] if ax is None else ax
     if kind is None:
-        kind = next((name for name in CURVES if name in result.diagrams and field is None), "picture")
-    if kind == "picture":
-        return _picture(result, field, ax)
-    if kind not in result.diagrams:
+        kind = (curve_of(result) if field is None else None) or "picture"
+    if kind != "picture" and kind not in result.diagrams:
         there = ", ".join(["picture", *result.diagrams])
         raise ValueError(f"there is no {kind!r} of this result; there is {there}")
-    diagram = result.diagrams[kind]
+    on: Axes = library("matplotlib.pyplot", "plot").subplots()[1] if ax is None else ax
+    return _picture(result, field, label, on) if kind == "picture" else _diagram(result.diagrams[kind], label, on)
+
+
+def curve_of(result: Result) -> str | None:
+    """The name of the diagram that is drawn unless another one is asked for, if there is one."""
+    return next((name for name in CURVES if name in result.diagrams), None)
+
+
+def _diagram(diagram: Diagram, label: str | None, ax: Axes) -> Axes:
+    from matplotlib.ticker import ScalarFormatter
+
+    is_one = sum(bool(trace.name) for trace in diagram.traces) == 1
     for trace in diagram.traces:
+        name = trace.name if label is None or not trace.name else label if is_one else f"{label}, {trace.name}"
+        name = _distinct(name, ax)
         if trace.stroke == "band":
-            ax.fill(*trace.points.T, label=trace.name or None, alpha=0.3)
+            ax.fill(*trace.points.T, label=name or None, alpha=0.3)
             continue
-        style = STROKES[trace.stroke]
-        ax.plot(*trace.points.T, label=trace.name or None, **style)
+        ax.plot(*trace.points.T, label=name or None, **{"linestyle": _linestyle(ax), **STROKES[trace.stroke]})
     ax.set(title=diagram.title, xlabel=diagram.labels[0], ylabel=diagram.labels[1])
-    for is_logarithmic, scale in zip(diagram.logarithmic, (ax.set_xscale, ax.set_yscale), strict=True):
+    for is_logarithmic, scale, axis, quantity in zip(diagram.logarithmic, (ax.set_xscale, ax.set_yscale), (ax.xaxis, ax.yaxis), diagram.labels, strict=True):
         if is_logarithmic:
             scale("log")
+        elif quantity.endswith(" in m"):
+            _in_its_unit(axis, np.ptp(axis.get_view_interval()), quantity.removesuffix("m") + "{}")
+        elif isinstance(formatter := axis.get_major_formatter(), ScalarFormatter):
+            formatter.set_powerlimits(PLAIN_POWERS)
+            formatter.set_useMathText(True)
     if any(trace.name for trace in diagram.traces):
-        ax.legend()
+        ax.legend(fontsize="small" if len(ax.get_legend_handles_labels()[1]) > FEW_NAMES else None)
     return ax
 
 
-def _picture(result: Result, field: str | None, ax: Axes) -> Axes:
+def _distinct(name: str, ax: Axes) -> str:
+    """The name, with a number if the legend has it already."""
+    there = ax.get_legend_handles_labels()[1]
+    number = next(number for number in range(1, len(there) + 2) if _numbered(name, number) not in there)
+    return _numbered(name, number)
+
+
+def _numbered(name: str, number: int) -> str:
+    return name if number == 1 or not name else f"{name} ({number})"
+
+
+def _linestyle(ax: Axes) -> str:
+    """The style of the next line: colors begin again when each was taken once."""
+    from matplotlib import rcParams
+
+    colored = sum(line.get_color() != GRAY for line in ax.lines)
+    return FURTHER_STYLES[colored // len(rcParams["axes.prop_cycle"]) % len(FURTHER_STYLES)]
+
+
+def _picture(result: Result, field: str | None, label: str | None, ax: Axes) -> Axes:
     frame = result.frame
     if "regions" in frame.layers:
         _regions(frame.layers["regions"], field, ax)
@@ -61,10 +109,24 @@ def _picture(result: Result, field: str | None, ax: Axes) -> Axes:
             _lines(part, color, width, ax)
     # A film is flat: its heights are magnified.
     is_film = frame.particles is not None and "film-height" in frame.particles
-    aspect = "auto" if is_film else "equal"
-    ax.set(xlabel="x (m)", ylabel="y (m)", title=result.report["case"]["title"], aspect=aspect)
+    ax.set(title=label or result.report["case"]["title"], aspect="auto" if is_film else "equal")
     ax.autoscale_view()
+    extents = [np.ptp(axis.get_view_interval()) for axis in (ax.xaxis, ax.yaxis)]
+    _in_its_unit(ax.xaxis, extents[0] if is_film else max(extents), "x ({})")
+    _in_its_unit(ax.yaxis, extents[1] if is_film else max(extents), "y ({})")
     return ax
+
+
+def _in_its_unit(axis: Axis, extent: float, label: str) -> None:
+    """Ticks and label in the unit that suits an extent in m; the axis itself stays in m, so that more can be drawn on it."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+    size, unit = next((one for one in LENGTHS if extent >= one[0]), LENGTHS[-1])
+    box, is_vertical = axis.axes.bbox, axis is axis.axes.yaxis
+    inches = (box.height if is_vertical else box.width) / axis.axes.figure.dpi
+    axis.set_major_locator(MaxNLocator(int(np.clip(inches / TICK_ROOM[is_vertical], 2, MOST_TICKS)), steps=[1, 2, 5, 10]))
+    axis.set_major_formatter(FuncFormatter(lambda length, _: f"{length / size:.6g}".replace("-", "\N{MINUS SIGN}")))
+    axis.set_label_text(label.format(unit))
 
 
 def _lines(lines: Fields, color: str, width: float, ax: Axes) -> None:
@@ -100,34 +162,3 @@ def _color(artist: Any, fields: Fields, field: str | None, ax: Axes) -> None:
     artist.set_array(values if values.ndim == 1 else np.linalg.norm(values, axis=1))
     unit = fields.units.get(field)
     ax.figure.colorbar(artist, ax=ax, label=f"{field} ({unit})" if unit else field)
-
-
-def to_pyvista(fields: Fields) -> Any:
-    """A pyvista data set with the points, cells and fields."""
-    import pyvista
-
-    points = _in_space(fields.points)
-    if fields.counts is not None:
-        columns, rows = fields.counts
-        data = pyvista.StructuredGrid(*(axis.reshape(rows, columns, 1) for axis in points.T))
-        # The nodes of a structured grid run along the first axis of these arrays first.
-        order = np.arange(rows * columns).reshape(rows, columns).T.ravel()
-        return _with_fields(data.point_data, data, fields, order)
-    if fields.kind == "points":
-        data = pyvista.PolyData(points)
-        return _with_fields(data.point_data, data, fields, None)
-    cells = np.concatenate([[len(cell), *cell] for cell in fields.cells]) if fields.cells else np.zeros(0, int)
-    data = pyvista.PolyData(points, **{"faces" if fields.kind == "polygons" else "lines": cells})
-    on_points = all(len(fields[name]) == len(points) for name in fields)
-    return _with_fields(data.point_data if on_points else data.cell_data, data, fields, None)
-
-
-def _with_fields(target: Any, data: Any, fields: Fields, order: Any) -> Any:
-    for name in fields:
-        values = fields[name] if fields[name].ndim == 1 else _in_space(fields[name])
-        target[name] = values if order is None else values[order]
-    return data
-
-
-def _in_space(vectors: Any) -> Any:
-    return np.column_stack([vectors, np.zeros(len(vectors))])

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from . import _meniscus
-from ._given import case_source, given, listener
-from .errors import SolverError
+from ._given import case_source, given, listed, listener, refused
+from .errors import SolverError, warn
 from .results import Result
+from .typing import Case, Drawing, Films, Inside, Path, Periodic, Process, Progress, Region, Side, Unit
 
-Path = str | os.PathLike[str]
+AXES: dict[Periodic, list[bool]] = {"x": [True, False], "y": [False, True], "xy": [True, True]}
 
 
 def run(
-    case: Mapping[str, Any] | Path | None = None,
+    case: Case | None = None,
     *,
     set: Mapping[str, Any] | None = None,
     out: Path | None = None,
     resume: bool = False,
-    progress: Any = None,
+    progress: Progress | None = None,
     threads: int | None = None,
     keep_frames: bool = False,
 ) -> Result:
@@ -42,7 +43,8 @@ def run(
             takes about 200 bytes per particle.
 
     Returns:
-        The result. Its ``status`` is ``expectation-failed`` if a measure does not meet an expectation in ``[[expect]]``.
+        The result. Its ``status`` is ``expectation-failed`` if a measure does not meet an expectation in ``[[expect]]``. Its ``warnings`` are issued as
+        `MeniscusWarning`, too.
 
     Raises:
         CaseError: the case, a file that it names or a value of ``set`` is invalid.
@@ -58,24 +60,24 @@ def run(
 
 
 def network(
-    drawing: Mapping[str, Any] | Path,
+    drawing: Drawing,
     *,
     angle_deg: float | None = None,
     tension: float | None = None,
-    inlet: str | None = None,
-    outlet: str | None = None,
-    process: str | None = None,
+    inlet: Side | None = None,
+    outlet: Side | None = None,
+    process: Process | None = None,
     cycles: int | None = None,
     trapping: bool | None = None,
-    films: str | None = None,
-    region: str | None = None,
-    periodic: str | None = None,
+    films: Films | None = None,
+    region: Region | None = None,
+    periodic: Periodic | None = None,
     depth: float | None = None,
     persistence: float | None = None,
-    unit: str | None = None,
+    unit: Unit | None = None,
     scale: float | None = None,
     window: Sequence[float] | None = None,
-    layers: Sequence[str] | None = None,
+    layers: str | Iterable[str] | None = None,
     join_within: float | None = None,
     threshold: float | None = None,
     pixel_size: float | None = None,
@@ -85,10 +87,10 @@ def network(
     columns: Sequence[int] | None = None,
     separator: str | None = None,
     diameters: bool | None = None,
-    frame: str | None = None,
-    nested: str | None = None,
+    frame: Inside | None = None,
+    nested: Inside | None = None,
     out: Path | None = None,
-    progress: Any = None,
+    progress: Progress | None = None,
     threads: int | None = None,
 ) -> Result:
     """Extracts the pore network of a drawing and displaces one fluid by another in it, as ``meniscus network`` does, to the same bits.
@@ -111,7 +113,7 @@ def network(
         unit: unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px.
         scale: length of the drawing unit in m, in place of ``unit``.
         window: corners of the domain in m: x0, y0, x1, y1.
-        layers: names of the layers to read; all if None.
+        layers: name of the layer to read, or a list of names; all layers if None.
         join_within: largest gap across which ends of lines in a DXF drawing are joined, in units of the drawing.
         threshold: gray value of an image that separates solid and pore, 0 (black) to 1 (white).
         pixel_size: side of a pixel of an image in m.
@@ -139,8 +141,8 @@ def network(
     of_import = {
         "unit": unit,
         "scale": scale,
-        "window": None if window is None else [list(window)[:2], list(window)[2:]],
-        "layers": layers,
+        "window": None if window is None else _corners(window),
+        "layers": listed(layers),
         "join_within": join_within,
         "threshold": threshold,
         "pixel_size": pixel_size,
@@ -153,9 +155,8 @@ def network(
         "frame": frame,
         "nested": nested,
     }
-    axes = {None: None, "x": [True, False], "y": [False, True], "xy": [True, True]}
-    if periodic not in axes:
-        raise ValueError(f"periodic: expected 'x', 'y' or 'xy', found {periodic!r}")
+    if periodic is not None and periodic not in AXES:
+        raise refused("periodic", f"expected one of {', '.join(AXES)}, found {periodic!r}")
     options = {
         "angle_deg": angle_deg,
         "tension": tension,
@@ -166,7 +167,7 @@ def network(
         "trapping": trapping,
         "films": films,
         "region": region,
-        "periodic": axes[periodic],
+        "periodic": None if periodic is None else AXES[periodic],
         "depth": depth,
         "persistence": persistence,
     }
@@ -175,10 +176,19 @@ def network(
     return _result(given((kind, drawing), None, of_import, options), output, progress, threads, False)
 
 
-def _result(case: dict[str, str], output: tuple[str, bool] | None, progress: Any, threads: int | None, keep_frames: bool) -> Result:
+def _corners(window: Iterable[float]) -> list[list[float]]:
+    numbers = [] if isinstance(window, str) else list(window)
+    if len(numbers) != 4:
+        raise refused("window", f"expected four numbers in m, x0, y0, x1 and y1, found {window!r}")
+    return [numbers[:2], numbers[2:]]
+
+
+def _result(case: dict[str, str], output: tuple[str, bool] | None, progress: Progress | None, threads: int | None, keep_frames: bool) -> Result:
     result = Result(_meniscus.run(case, output, threads, listener(progress), keep_frames))
     if result.status == "failed":
         raise SolverError(result.report["error"] or "the solver failed", result)
-    if result.status == "interrupted":
+    if result.report["status"] == "interrupted":
         raise KeyboardInterrupt
+    # Those who called `run` or `network`.
+    warn(result.warnings, 3)
     return result

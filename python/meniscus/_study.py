@@ -7,15 +7,23 @@ import os
 import uuid
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _meniscus
 from ._given import listener
-from .results import Measure, measure
+from ._optional import library
+from .errors import warn
+from .measures import Measures, measures_of
+from .typing import Path as AnyPath
+from .typing import Progress, SampleStatus
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True)
@@ -28,14 +36,16 @@ class Sample:
     """Name, equal to that of its folder."""
     folder: Path
     """Folder of its files."""
-    status: str
+    status: SampleStatus
     """``done``, ``partial``, ``failed`` or ``to do``."""
     error: str
     """Why it failed; empty otherwise."""
     parameters: dict[str, Any]
     """Values of the parameters, by name."""
-    measures: dict[str, Measure]
+    measures: Measures
     """Measures by name, if the run is done."""
+    warnings: list[str] = field(default_factory=list)
+    """Warnings that limit the validity of the measures."""
 
 
 class Study(Sequence[Sample]):
@@ -45,7 +55,11 @@ class Study(Sequence[Sample]):
         """Takes title, folder and runs."""
         self.title, self.folder, self._samples = title, folder, samples
 
-    def __getitem__(self, place: Any) -> Any:
+    @overload
+    def __getitem__(self, place: int) -> Sample: ...
+    @overload
+    def __getitem__(self, place: slice) -> list[Sample]: ...
+    def __getitem__(self, place: int | slice) -> Sample | list[Sample]:
         """A run, or several by a slice."""
         return self._samples[place]
 
@@ -62,19 +76,47 @@ class Study(Sequence[Sample]):
         done = sum(sample.status == "done" for sample in self)
         return f"<Study: {self.title}; {done} of {len(self)} runs done>"
 
-    def column(self, name: str) -> np.ndarray:
+    def _repr_html_(self) -> str:
+        """First curve, runs and warnings for notebooks."""
+        from ._html import study
+
+        return study(self)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Why runs have failed, and warnings that limit the validity of measures, each behind the name of its run."""
+        failed = [f"{sample.name}: failed: {sample.error}" for sample in self if sample.error]
+        return failed + [f"{sample.name}: {text}" for sample in self for text in sample.warnings]
+
+    def column(self, name: str) -> NDArray[Any]:
         """A parameter or a measure of all runs, of shape (runs,); NaN if a run does not have the measure."""
         if all(name in sample.parameters for sample in self):
             return np.array([sample.parameters[name] for sample in self])
-        found = [sample.measures.get(name) for sample in self]
-        if not any(found):
+        if not any(name in sample.measures for sample in self):
             raise KeyError(name)
-        return np.array([np.nan if one is None or one.value is None else one.value for one in found])
+        return np.array([sample.measures.get(name, np.nan) for sample in self])
 
-    def table(self) -> dict[str, np.ndarray]:
+    def table(self) -> dict[str, NDArray[Any]]:
         """All parameters and measures by name, for ``pandas.DataFrame``."""
         names = dict.fromkeys(name for sample in self for name in (*sample.parameters, *sample.measures))
         return {"run": np.array([sample.name for sample in self]), **{name: self.column(name) for name in names}}
+
+    def to_frame(self) -> DataFrame:
+        """Parameters, status and measures by the name of the run, with the columns of ``table.csv``; requires pandas.
+
+        Where a measure has an error bar, a column ``NAME-uncertainty`` follows it. ``attrs["units"]`` has the units of the measures.
+        """
+        columns = self.table()
+        parameters = {name: columns.pop(name) for name in list(columns) if name == "run" or all(name in sample.parameters for sample in self)}
+        found = parameters | {"status": np.array([sample.status for sample in self])}
+        for name, column in columns.items():
+            found[name] = column
+            bars = [sample.measures[name].uncertainty if name in sample.measures else None for sample in self]
+            if any(bar is not None for bar in bars):
+                found[f"{name}-uncertainty"] = np.array(bars, dtype=float)
+        frame: DataFrame = library("pandas", "pandas").DataFrame(found).set_index("run")
+        frame.attrs["units"] = {name: one.unit for sample in self for name, one in sample.measures.items()}
+        return frame
 
 
 def do_run(path: str, out: str, index: int, digest: str, threads: int | None, token: str) -> tuple[str, str]:
@@ -83,12 +125,12 @@ def do_run(path: str, out: str, index: int, digest: str, threads: int | None, to
 
 
 def study(
-    path: str | os.PathLike[str],
+    path: AnyPath,
     executor: Executor | None = None,
     *,
-    out: str | os.PathLike[str] | None = None,
+    out: AnyPath | None = None,
     threads: int | None = None,
-    progress: Any = None,
+    progress: Progress | None = None,
 ) -> Study:
     """Does all runs of a study that are not complete, and writes its report, as ``meniscus study run`` does.
 
@@ -105,7 +147,8 @@ def study(
         progress: as in `run`; called whenever a run has ended.
 
     Returns:
-        The runs with their parameters and measures. A failed run does not prevent the others: see its ``status`` and ``error``.
+        The runs with their parameters and measures. A failed run does not prevent the others: see its ``status`` and ``error``. If there are any
+        `Study.warnings`, a `MeniscusWarning` gives the first of them and their number.
 
     Raises:
         CaseError: the study or the case of a run is invalid; nothing was run.
@@ -127,7 +170,15 @@ def study(
     if any(status == "interrupted" for status, _ in endings.values()):
         raise KeyboardInterrupt
     samples = [_sample(row, endings) for row in json.loads(_meniscus.study_report(file, folder))]
-    return Study(plan["title"], Path(folder), samples)
+    found = Study(plan["title"], Path(folder), samples)
+    warn(_in_short(found.warnings), 2)
+    return found
+
+
+def _in_short(warnings: list[str]) -> list[str]:
+    """One warning for all: a study may have a thousand."""
+    more = f" (and {len(warnings) - 1} more: see `warnings` of the study)" if len(warnings) > 1 else ""
+    return [warnings[0] + more] if warnings else []
 
 
 def _endings(executor: Executor | None, calls: list[Any], token: str) -> Iterator[tuple[int, tuple[str, str]]]:
@@ -149,6 +200,7 @@ def _endings(executor: Executor | None, calls: list[Any], token: str) -> Iterato
 def _sample(row: dict[str, Any], endings: dict[int, tuple[str, str]]) -> Sample:
     status, error = endings.get(row["index"], ("", ""))
     failed = status == "failed"
+    report = Path(row["folder"]) / "report.json"
     return Sample(
         index=row["index"],
         name=row["name"],
@@ -156,5 +208,6 @@ def _sample(row: dict[str, Any], endings: dict[int, tuple[str, str]]) -> Sample:
         status="failed" if failed else row["status"],
         error=error,
         parameters=row["parameters"],
-        measures={name: measure(one) for name, one in (row["measures"] or {}).items()},
+        measures=measures_of(row["measures"] or {}),
+        warnings=json.loads(report.read_text(encoding="utf-8")).get("warnings", []) if report.is_file() else [],
     )

@@ -1,8 +1,9 @@
-"""Exceptions of this package."""
+"""Exceptions and warnings of this package."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -67,3 +68,13 @@ class SolverError(MeniscusError, RuntimeError):
 
 class FolderError(MeniscusError, OSError):
     """The folder for output is not empty, is in use, contains nothing to resume or cannot be written."""
+
+
+class MeniscusWarning(UserWarning):
+    """Something limits the validity of measures; the text is one of ``warnings`` of a result."""
+
+
+def warn(texts: Iterable[str], levels: int) -> None:
+    """Issues warnings at the place so many calls above that of this function, 1 being the caller itself."""
+    for text in texts:
+        warnings.warn(text, MeniscusWarning, stacklevel=levels + 1)

@@ -7,13 +7,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .measures import Measures, measures_of
+from .typing import FieldsKind, Status, Stroke
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from xarray import Dataset
 
 Array = NDArray[Any]
 
@@ -29,22 +33,6 @@ def _arrays(data: Any) -> Any:
     return data
 
 
-@dataclass(frozen=True)
-class Measure:
-    """A final result with its error bar."""
-
-    value: float | None
-    """Value in ``unit``; None if it could not be measured, for the reason in ``method``."""
-    unit: str
-    """Unit; empty if dimensionless."""
-    uncertainty: float | None
-    """One standard uncertainty in ``unit``; None if not known."""
-    method: str
-    """How it was measured, in one sentence."""
-    rate: float | None = None
-    """Its rate of change at the end in ``unit`` per s, if it still changes by more than its uncertainty."""
-
-
 class Fields(Mapping[str, Array]):
     """Points of the plane, cells between them, and fields by name, each with one value, or one row of two components, per point or cell.
 
@@ -56,7 +44,7 @@ class Fields(Mapping[str, Array]):
         self._fields: dict[str, Array] = _arrays(data["fields"])
         self.units: dict[str, str] = dict(data["units"])
         """Unit of each field; empty if dimensionless."""
-        self.kind: str = data.get("kind", "lines" if "ends" in data else "grid" if "counts" in data else "points")
+        self.kind: FieldsKind = data.get("kind", "lines" if "ends" in data else "grid" if "counts" in data else "points")
         """``points``, ``lines``, ``polygons`` or ``grid``."""
         self.counts: tuple[int, int] | None = None
         """Number of nodes along x and y of a grid; fields run along x first: ``field.reshape(counts[1], counts[0])``."""
@@ -65,7 +53,7 @@ class Fields(Mapping[str, Array]):
             self.counts = (columns, rows)
             self._origin, self._spacing = _arrays(data["origin"]), _arrays(data["spacing"])
         else:
-            self._points = _arrays(data["points"])
+            self._points: Array = _arrays(data["points"])
         self._vertices, self._ends = _arrays(data.get("vertices")), _arrays(data.get("ends"))
 
     def __getitem__(self, name: str) -> Array:
@@ -100,10 +88,21 @@ class Fields(Mapping[str, Array]):
         return [] if self._ends is None else np.split(self._vertices, self._ends[:-1]) if len(self._ends) else []
 
     def to_pyvista(self) -> Any:
-        """The fields as a pyvista data set; requires ``pip install meniscus[pyvista]``."""
-        from ._plot import to_pyvista
+        """The fields as a pyvista data set; requires pyvista."""
+        from ._pyvista import to_pyvista
 
         return to_pyvista(self)
+
+    def to_xarray(self) -> Dataset:
+        """Fields on a grid as an xarray data set, with the dimensions ``y``, ``x`` and, for vectors, ``component``; requires xarray.
+
+        Raises:
+            ValueError: the points are not those of a grid.
+
+        """
+        from ._xarray import of_grid
+
+        return of_grid(self)
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,7 @@ class Trace:
 
     name: str
     """Its name in the legend; empty for none."""
-    stroke: str
+    stroke: Stroke
     """``full``, ``thin``, ``dashed``, ``dots``, or ``band``: the area within the points."""
     points: Array
     """x and y, of shape (n, 2)."""
@@ -180,22 +179,22 @@ class Result:
     @cached_property
     def report(self) -> dict[str, Any]:
         """The content of ``report.json``."""
-        return json.loads(self._data["report"])
+        return cast("dict[str, Any]", json.loads(self._data["report"]))
 
     @property
-    def status(self) -> str:
+    def status(self) -> Status:
         """``done`` or ``expectation-failed``; ``failed`` for the result of a `SolverError`."""
-        return self.report["status"]
+        return cast("Status", self.report["status"])
 
     @cached_property
-    def measures(self) -> dict[str, Measure]:
-        """The final measures by name."""
-        return {name: measure(one) for name, one in self.report["measures"].items()}
+    def measures(self) -> Measures:
+        """The final measures by name: a dict, with ``to_frame()``."""
+        return measures_of(self.report["measures"])
 
     @property
     def warnings(self) -> list[str]:
         """Warnings that limit the validity of the measures."""
-        return self.report["warnings"]
+        return cast("list[str]", self.report["warnings"])
 
     @cached_property
     def frame(self) -> Frame:
@@ -259,16 +258,36 @@ class Result:
 
     def __repr__(self) -> str:
         """Status and measures."""
-        numbers = ", ".join(f"{name} = {one.value} {one.unit}".rstrip() for name, one in self.measures.items())
+        numbers = ", ".join(f"{name} = {one.told()}" for name, one in self.measures.items())
         return f"<Result: {self.status}; {numbers}>"
 
-    def plot(self, kind: str | None = None, *, field: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws the result with matplotlib; requires ``pip install meniscus[plot]``.
+    def _repr_html_(self) -> str:
+        """Pictures, measures and warnings for notebooks."""
+        from ._html import result
+
+        return result(self)
+
+    def to_xarray(self) -> Dataset:
+        """Fields of a direct simulation on a grid as an xarray data set with the dimensions ``time``, ``y``, ``x`` and, for vectors, ``component``.
+
+        It has all times of `frames`. Requires xarray. Particles are not part of it: they are at other points at each time.
+
+        Raises:
+            ValueError: the result has no fields on a grid.
+
+        """
+        from ._xarray import of_frames
+
+        return of_frames(self.frames, self.report["case"]["title"])
+
+    def plot(self, kind: str | None = None, *, field: str | None = None, label: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws the result with matplotlib, which it requires. Several curves on the same axes have different colors.
 
         Args:
             kind: ``picture``, or the name of one of `diagrams`, such as ``capillary-pressure``. If None, the capillary pressure curve of a network with a
                 displacement, otherwise the picture.
             field: the field that colors particles or regions in a picture; their phase if None.
+            label: name of the curve in the legend, before those of its parts if there are several; the title of a picture.
             ax: axes to draw on; new ones if None.
 
         Returns:
@@ -277,11 +296,4 @@ class Result:
         """
         from ._plot import plot
 
-        return plot(self, kind, field, ax)
-
-
-def measure(reading: Mapping[str, Any]) -> Measure:
-    """A measure from its entry in the report."""
-    motion = reading.get("not-at-rest")
-    rate = None if motion is None else motion["rate"]
-    return Measure(reading["value"], reading["unit"], reading["uncertainty"], reading["method"], rate)
+        return plot(self, kind, field, label, ax)

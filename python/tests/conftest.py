@@ -30,6 +30,11 @@ values = [{values}]
 DROP_SET = {"sph.spacing": 1e-4, "time.end": 2e-4, "expect": [], "output.vtk.every-time": 1e-4}
 
 
+def pytest_configure(config):
+    """Warnings of coarse runs are of interest only where a test expects them."""
+    config.addinivalue_line("filterwarnings", "ignore::meniscus.MeniscusWarning")
+
+
 @pytest.fixture(scope="session")
 def program():
     """The path of the program, built from the same source."""
@@ -47,6 +52,15 @@ def by_program(program, tmp_path):
         return out
 
     return run
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    """A study of a small drop at two angles."""
+    path = tmp_path / "angles.toml"
+    path.write_text(STUDY.format(case=DROP.as_posix(), values="60.0, 90.0"))
+    monkeypatch.chdir(tmp_path)
+    return path
 
 
 def set_options(changes: dict) -> list[str]:

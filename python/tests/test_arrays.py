@@ -119,4 +119,4 @@ def test_pictures_are_drawn():
         network.plot("no-such-diagram")
     drop = meniscus.run(DROP, set=DROP_SET)
     axes = drop.plot(field="velocity")
-    assert axes.get_xlabel() == "x (m)" and len(axes.collections) == 3
+    assert axes.get_xlabel() == "x (mm)" and len(axes.collections) == 3
