@@ -88,7 +88,7 @@ fn trial_within(
     let waiting = record();
     let content = vtk::points(&first.1.particles, compression(&case.output));
     let grid = first.1.grid.as_ref().map(|grid| vtk::grid(grid, compression(&case.output)));
-    let picture = drawn(case, solver, &solver.results());
+    let picture = (drawn(case, solver), solver.results());
     drop((first, waiting, content, grid, picture));
     // Steps that grow with time are cut short by every record, most of them late in the run.
     let records = case.end / case.output.series_every.min(case.output.vtk_every).min(case.output.restart_every);
