@@ -12,3 +12,4 @@ mod chip;
 mod command_line;
 mod expectations;
 mod faults;
+mod movies;
