@@ -138,6 +138,8 @@ def look_down(plotter, bounds) -> None:
     plotter.camera.focal_point = (x, y, 0.0)
     plotter.camera.position = (x, y, 10.0 * half)
     plotter.reset_camera_clipping_range()
+    # From the second picture on, view_xy has rendered already, before the lines after it.
+    plotter.render()
 
 
 def plotter(directory: Path, frame: results.Frame, size: int = LONG_SIDE):

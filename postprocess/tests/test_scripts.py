@@ -18,6 +18,7 @@ import compare_picture  # noqa: E402
 import field_picture  # noqa: E402
 import movie  # noqa: E402
 import results  # noqa: E402
+import scene  # noqa: E402
 import small_pieces  # noqa: E402
 import spreading  # noqa: E402
 
@@ -167,6 +168,18 @@ class Scripts(unittest.TestCase):
         self.draws("movie.py", "--movie", "movie.gif", "--size", "320")
         self.draws("movie.py", "--movie", "movie.mp4")
         self.draws("movie.py", "--movie", "movie.webp", "--size", "320")
+
+    def test_later_frames_show_the_same_section(self):
+        """The domain stays beside the color bar."""
+        frame = results.frames(self.directory / "grid.pvd")[0]
+        plotter = scene.plotter(self.directory, frame, 640)
+        shots = []
+        for _ in range(2):
+            scene.draw(plotter, self.directory, frame, "pressure", (0.0, 1.0))
+            shots.append(plotter.screenshot(return_img=True).astype(int))
+        plotter.close()
+        changed = np.abs(shots[1] - shots[0]).max(axis=2) > 20
+        self.assertLess(changed.mean(), 0.01)
 
     def draws(self, script: str, option: str, name: str, *more: str):
         """The script ends well and leaves a file of more than a few bytes."""

@@ -10,6 +10,7 @@ use clap_complete::Shell;
 use super::compare::CompareArguments;
 use super::couple::CoupleArguments;
 use super::import_arguments::ImportArguments;
+use super::movie::MovieArguments;
 use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
@@ -72,6 +73,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Run a slow displacement in a network with one of its avalanches by direct simulation
     Couple(CoupleArguments),
+    /// Make a movie of a run from its output folder
+    Movie(MovieArguments),
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),

@@ -9,7 +9,7 @@ use super::arguments::{Arguments, Command};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{print_error, say};
 use super::threads::pool;
-use super::{check, compare, couple, geometry, list, man, network, new, output, run, study, threads};
+use super::{check, compare, couple, geometry, list, man, movie, network, new, output, run, study, threads};
 
 /// Reads the command line and executes it.
 pub fn main() -> ExitCode {
@@ -79,6 +79,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             Ok(DONE)
         }
         Some(Command::Man { out }) => man::man(out.as_deref()),
+        Some(Command::Movie(arguments)) => movie::movie(&arguments),
         Some(Command::Network(arguments)) => network::network(&arguments),
         Some(Command::Compare(arguments)) => compare::compare(&arguments),
         Some(Command::Couple(arguments)) => couple::couple(&arguments),

@@ -54,7 +54,12 @@ fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
     let files = [
         ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(Failure::with(BUG))?),
         ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(Failure::with(BUG))?),
-        ("picture.png", picture(&pore(shapes), &shapes.outline, title, None).map_err(Failure::with(USAGE))?),
+        (
+            "picture.png",
+            picture(&pore(shapes), &shapes.outline, title, None)
+                .and_then(|picture| picture.png())
+                .map_err(Failure::with(USAGE))?,
+        ),
     ];
     files
         .iter()

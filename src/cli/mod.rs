@@ -13,6 +13,7 @@ pub(crate) mod import_arguments;
 mod interrupt;
 mod list;
 mod man;
+mod movie;
 mod network;
 mod new;
 mod new_pack;

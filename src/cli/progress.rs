@@ -43,6 +43,11 @@ impl ProgressDisplay {
         self.show(fraction, || "first steps are tried".to_owned());
     }
 
+    /// Shows the progress of drawing a movie.
+    pub(crate) fn filmed(&mut self, fraction: f64) {
+        self.show(fraction, || "frames are drawn".to_owned());
+    }
+
     /// Shows a fraction of the work with a text, if enough time has passed since the last update.
     fn show(&mut self, fraction: f64, text: impl FnOnce() -> String) {
         let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };

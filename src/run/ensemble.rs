@@ -104,5 +104,6 @@ pub(crate) fn write_map(
     let layer = vtk::layer(&map.layer(probability), Compression::default());
     atomic::write(&path("vtu"), &layer.map_err(|error| failed("vtu", error.to_string()))?)?;
     let picture = region_map_picture(&map.region_map(probability, note), title);
+    let picture = picture.and_then(|picture| picture.png());
     atomic::write(&path("png"), &picture.map_err(|error| failed("png", error.to_string()))?)
 }

@@ -119,7 +119,7 @@ pub fn execute(
     ended?;
     written?;
     let results = solver.results();
-    let picture = draw(job, solver, &results)?;
+    let picture = draw(job, solver)?;
     write_results(job, &results)?;
     draw_diagrams(job, solver)?;
     Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
@@ -211,18 +211,19 @@ fn report(
 }
 
 /// The picture of the present state as PNG.
-pub(super) fn drawn(case: &Case, solver: &dyn Solver, results: &Results<'_>) -> Result<Vec<u8>, PictureError> {
+pub(super) fn drawn(case: &Case, solver: &dyn Solver) -> Result<Vec<u8>, PictureError> {
     let title = &case.title;
-    match results.region_maps.first() {
-        Some(region_map) => region_map_picture(region_map, title),
+    let drawn = match solver.region_map() {
+        Some(region_map) => region_map_picture(&region_map, title),
         None => picture(&solver.snapshot(), &solver.outline(), title, setup::frame(case).as_ref()),
-    }
+    };
+    drawn?.png()
 }
 
 /// Draws the final state. A picture that cannot be drawn does not fail the run; one that cannot be written does.
-fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Result<PathBuf, PictureError>, FileError> {
+fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureError>, FileError> {
     let path: &Path = &job.folder.join("picture.png");
-    match drawn(job.case, solver, results) {
+    match drawn(job.case, solver) {
         Ok(png) => atomic::write(path, &png).map(|()| Ok(path.to_path_buf())),
         Err(error) => Ok(Err(error)),
     }

@@ -19,6 +19,7 @@ pub(crate) mod folder_error;
 pub(crate) mod memory;
 #[cfg(test)]
 pub(crate) mod mock;
+pub(crate) mod movie;
 pub(crate) mod numbers;
 pub(crate) mod pressure_curves;
 pub(crate) mod processor_time;

@@ -105,7 +105,7 @@ fn trial_within(
     });
     let (ending, at_end) = timed(|| {
         let results = solver.results();
-        (drawn(case, solver, &results).ok(), results.layers.len(), solver.measures(&Series::default()).len())
+        (drawn(case, solver).ok(), results.layers.len(), solver.measures(&Series::default()).len())
     });
     drop((sample, state, waiting, frame, ending));
     let output = &case.output;

@@ -13,4 +13,5 @@ mod command_line;
 mod expectations;
 mod faults;
 mod mirrored;
+mod movies;
 mod network_tutorial;

@@ -98,6 +98,9 @@ pub mod colors {
     /// The non-wetting phase; darker where it is trapped.
     pub const NON_WETTING: Color = [230, 159, 0];
     pub const NON_WETTING_TRAPPED: Color = [166, 86, 0];
+    /// Phases that were there before the half cycle in which they invade.
+    pub const WETTING_BEFORE: Color = [70, 180, 140];
+    pub const NON_WETTING_BEFORE: Color = [240, 228, 66];
     /// Solids and their walls.
     pub const SOLID: Color = [190, 190, 190];
     pub const WALL: Color = [80, 80, 80];
@@ -161,8 +164,8 @@ pub(crate) type Strip = (Vec<[f64; 2]>, f64);
 /// A map of the plane: areas colored by a number, with lines on top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionMap {
-    /// Its file is `picture-NAME.png`; that of the first one `picture.png`.
-    pub name: &'static str,
+    /// The part of the run that it belongs to, from 0: the half cycle. Maps of one part have one color bar.
+    pub part: usize,
     /// The line below the title: the progress of the run.
     pub note: String,
     /// The quantity of the color bar with its unit.
@@ -183,8 +186,8 @@ pub struct RegionMap {
     pub menisci: (&'static str, Vec<Vec<[f64; 2]>>),
     /// Dashed lines with their name in the legend, below the others.
     pub throats: (&'static str, Vec<Vec<[f64; 2]>>),
-    /// Lines of a width in m with their name in the legend, below the others: films.
-    pub strips: (&'static str, Vec<Strip>),
+    /// Lines of a width in m with their name in the legend and their color, below the others and within the areas: films.
+    pub strips: (&'static str, Color, Vec<Strip>),
 }
 
 #[cfg(test)]

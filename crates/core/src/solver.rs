@@ -32,8 +32,6 @@ pub struct Results<'a> {
     pub layers: Vec<Layer<'a>>,
     /// Texts, written unchanged.
     pub documents: Vec<Document>,
-    /// Maps of the plane; the first one is the picture of the run.
-    pub region_maps: Vec<RegionMap>,
 }
 
 /// One named number of the time series.
@@ -343,6 +341,11 @@ pub trait Solver {
     /// Layers of cells that are recorded over time.
     fn layers(&self) -> Vec<Layer<'_>> {
         Vec::new()
+    }
+
+    /// The map of the plane that is the picture of the present state; `None` if its snapshot is.
+    fn region_map(&self) -> Option<RegionMap> {
+        None
     }
 
     /// Final output besides measures and diagrams.

@@ -6,6 +6,7 @@ use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::{Element, Phase};
 use super::films::ObservedFilms;
 use super::model::Configuration;
+use meniscus_core::diagram::Through;
 use meniscus_core::math::Vec2;
 
 /// Phases of all elements, and their history.
@@ -25,10 +26,12 @@ pub(crate) struct Occupation<'a> {
     pub(crate) passed: Vec<Option<usize>>,
     /// The menisci, each a polyline in m.
     pub(crate) menisci: Vec<Vec<Vec2>>,
+    /// Direction in which the invading phase drives the flow through the left, right, bottom and top side; `None` if a side is closed.
+    pub(crate) open: [Option<Through>; 4],
+    /// Index of the half cycle.
+    pub(crate) half_cycle: usize,
     /// The corner films, if any.
     pub(crate) films: Option<ObservedFilms>,
-    /// Process and progress as text, for pictures.
-    pub(crate) note: String,
 }
 
 impl Occupation<'_> {
@@ -57,14 +60,30 @@ impl Cycles {
             invasions: (&self.record.invasions[..]).into(),
             passed: present.map(|entry| entry.throat).collect(),
             menisci: self.menisci(),
+            open: self.open_sides(),
+            half_cycle: self.half_cycle_index(),
             films: self.observed_films(),
-            note: format!(
-                "{} {}: wetting saturation {:.3}",
-                self.half_cycle().invading.process(),
-                self.half_cycle_index() / 2 + 1,
-                self.saturation()
-            ),
         }
+    }
+
+    /// The half cycle with its saturation and capillary pressure, as text.
+    pub(crate) fn progress(&self, config: &Configuration) -> String {
+        let (half, number) = (self.half_cycle(), self.half_cycle_index() / 2 + 1);
+        let pressure = self.applied().map(|applied| config.pressure(half.invading, applied)).filter(|p| p.is_finite());
+        // Four digits.
+        let rounded = |pressure: f64| format!("{pressure:.3e}").parse().unwrap_or(pressure);
+        let pressure = pressure.map_or(String::new(), |p| format!(", capillary pressure {} Pa", rounded(p)));
+        format!("{} {number}: wetting saturation {:.3}{pressure}", half.invading.process(), self.saturation())
+    }
+
+    /// Direction of flow through each side: in through those that feed the invading phase, which change with the half cycle.
+    fn open_sides(&self) -> [Option<Through>; 4] {
+        let conditions = &self.half_cycle().conditions;
+        [0, 1, 2, 3].map(|side| match (conditions.inlet[side], conditions.outlet[side]) {
+            (true, _) => Some(Through::In),
+            (_, true) => Some(Through::Out),
+            _ => None,
+        })
     }
 
     /// All interfaces at the applied pressure, those around trapped regions included, each a polyline in m.

@@ -21,7 +21,7 @@ struct Look {
     color: Color,
     trapped: (&'static str, Color),
     in_order: (&'static str, &'static [Color]),
-    before: &'static str,
+    before: (&'static str, Color),
 }
 
 const LOOKS: [Look; 2] = [
@@ -29,13 +29,13 @@ const LOOKS: [Look; 2] = [
         color: colors::WETTING,
         trapped: ("wetting, trapped", colors::WETTING_TRAPPED),
         in_order: ("wetting, displaced share at invasion", colors::WETTING_IN_ORDER),
-        before: "wetting before",
+        before: ("wetting before", colors::WETTING_BEFORE),
     },
     Look {
         color: colors::NON_WETTING,
         trapped: ("non-wetting, trapped", colors::NON_WETTING_TRAPPED),
         in_order: ("non-wetting, displaced share at invasion", colors::NON_WETTING_IN_ORDER),
-        before: "non-wetting before",
+        before: ("non-wetting before", colors::NON_WETTING_BEFORE),
     },
 ];
 
@@ -150,9 +150,9 @@ fn areas(config: &Configuration, outline: &[Vec2], tone: Tone) -> Vec<Area> {
     images(config, outline).into_iter().map(|boundary| Area { boundary, tone }).collect()
 }
 
-/// The maps: the order of invasion, or without a displacement the pores by size.
-pub(crate) fn region_maps(config: &Configuration, occupation: Option<&Occupation>) -> Vec<RegionMap> {
-    vec![occupation.map_or_else(|| sizes(config), |occupation| order(config, occupation))]
+/// The map: the order of invasion with the progress as text, or without a displacement the pores by size.
+pub(crate) fn region_map(config: &Configuration, occupation: Option<(&Occupation, String)>) -> RegionMap {
+    occupation.map_or_else(|| sizes(config), |(occupation, progress)| order(config, occupation, progress))
 }
 
 fn empty(config: &Configuration) -> RegionMap {
@@ -161,7 +161,7 @@ fn empty(config: &Configuration) -> RegionMap {
         line.iter().filter_map(|&i| outline.points.get(i as usize)).map(|&point| point.into()).collect()
     };
     RegionMap {
-        name: "network",
+        part: 0,
         note: String::new(),
         label: "",
         range: [0.0, 1.0],
@@ -176,12 +176,12 @@ fn empty(config: &Configuration) -> RegionMap {
         walls: outline.lines.iter().map(wall).collect(),
         menisci: ("menisci", Vec::new()),
         throats: ("throats", kept(config).flat_map(|throat| images(config, &throat.contacts)).collect()),
-        strips: ("films", Vec::new()),
+        strips: ("films", colors::WETTING, Vec::new()),
     }
 }
 
 /// Direction of flow through a side.
-fn through(side: Side) -> Option<Through> {
+pub(crate) fn through(side: Side) -> Option<Through> {
     match side {
         Side::Inlet => Some(Through::In),
         Side::Outlet => Some(Through::Out),
@@ -189,7 +189,7 @@ fn through(side: Side) -> Option<Through> {
     }
 }
 
-fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
+fn order(config: &Configuration, occupation: &Occupation, progress: String) -> RegionMap {
     let areas = occupation.elements.iter().enumerate().flat_map(|(index, element)| {
         let is_invaded = occupation.is_invaded(index);
         let tone = match occupation.invasions[index] {
@@ -206,21 +206,21 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
     let menisci = occupation.menisci.iter().flat_map(|line| images(config, line)).collect();
     let all = occupation.films.iter().flat_map(|films| &films.strips);
     let strips = all.flat_map(|(line, width)| images(config, line).into_iter().map(|line| (line, *width)));
+    // Films are wetting phase that did not come in this half cycle.
+    let of_films = if occupation.invading == FluidPhase::Wetting { invading.before.1 } else { defending.color };
+    let map = empty(config);
     RegionMap {
-        name: "invasion",
-        note: occupation.note.clone(),
+        part: occupation.half_cycle,
+        note: progress,
         label,
         bar,
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
-        classes: vec![
-            (occupation.invading.other().name(), defending.color),
-            defending.trapped,
-            (invading.before, invading.color),
-        ],
+        classes: vec![(occupation.invading.other().name(), defending.color), defending.trapped, invading.before],
         areas: areas.collect(),
         menisci: ("menisci", menisci),
-        strips: ("films", strips.collect()),
-        ..empty(config)
+        strips: ("films", of_films, strips.collect()),
+        frame: Frame { open: occupation.open, ..map.frame },
+        ..map
     }
 }
 
@@ -228,13 +228,7 @@ fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
 pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64], note: String) -> RegionMap {
     let elements = elements.iter().zip(probability);
     let areas = elements.flat_map(|(element, &it)| areas(config, &element.outline, Tone::Value(it)));
-    RegionMap {
-        name: "invasion-probability",
-        note,
-        label: "probability of invasion",
-        areas: areas.collect(),
-        ..empty(config)
-    }
+    RegionMap { note, label: "probability of invasion", areas: areas.collect(), ..empty(config) }
 }
 
 fn sizes(config: &Configuration) -> RegionMap {
@@ -244,7 +238,6 @@ fn sizes(config: &Configuration) -> RegionMap {
     });
     let largest = (0..pores.main_region.len()).map(|pore| radius(config, pore)).fold(0.0, f64::max);
     RegionMap {
-        name: "pores",
         note: format!("{} pores, {} throats", pores.main_region.len(), pores.throats.len()),
         label: "inscribed radius in m",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],

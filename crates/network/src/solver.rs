@@ -11,7 +11,7 @@ use super::measures::Costly;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
-use meniscus_core::diagram::Diagram;
+use meniscus_core::diagram::{Diagram, RegionMap};
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
     Clock, Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
@@ -151,10 +151,16 @@ impl Solver for NetworkSolver {
         vec![layers::regions(&self.model.config, self.cycles().map(Cycles::occupation).as_ref())]
     }
 
-    fn results(&self) -> Results<'_> {
+    fn region_map(&self) -> Option<RegionMap> {
         let (config, cycles) = (self.config(), self.cycles());
         let occupation = cycles.map(|cycles| Occupation { menisci: cycles.all_menisci(config), ..cycles.occupation() });
-        let mut results = results_with(&self.model, occupation.as_ref());
+        let progress = cycles.map(|cycles| cycles.progress(config));
+        Some(pictures::region_map(config, occupation.as_ref().zip(progress)))
+    }
+
+    fn results(&self) -> Results<'_> {
+        let (config, cycles) = (self.config(), self.cycles());
+        let mut results = results_with(&self.model, cycles.map(Cycles::occupation).as_ref());
         results.tables.extend(cycles.map(|cycles| tables::events(config, cycles)));
         results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(config, cycles)));
         results.documents.extend(state::documents(&self.model));
@@ -210,7 +216,6 @@ pub(super) fn results_with(model: &Model, occupation: Option<&Occupation>) -> Re
         tables: tables::all(model, occupation),
         layers: layers::pores_and_throats(model, occupation),
         documents: vec![summary::network_json(model)],
-        region_maps: pictures::region_maps(&model.config, occupation),
     };
     results.tables.push(openpnm::table(model));
     results

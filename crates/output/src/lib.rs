@@ -12,6 +12,7 @@ pub mod diagram;
 pub mod frames;
 pub mod html;
 pub mod journal;
+pub mod movie;
 pub mod picture;
 pub mod pvd;
 pub mod restart;

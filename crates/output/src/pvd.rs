@@ -62,6 +62,24 @@ impl Collection {
 const HEAD: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
 const TAIL: &str = "  </Collection>\n</VTKFile>\n";
 
+/// The files of a `.pvd` by their times in s, in its order.
+///
+/// # Errors
+/// [`FileError`] if it cannot be read or is not one.
+pub fn read(path: &Path) -> Result<Vec<(f64, PathBuf)>, FileError> {
+    let text = std::fs::read_to_string(path).map_err(FileError::read(path))?;
+    let refused = FileError::content(path);
+    let document =
+        roxmltree::Document::parse(&text).map_err(|error| refused(format!("{error}; run the case again")))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let sets = document.descendants().filter(|node| node.has_tag_name("DataSet"));
+    let entry = |set: roxmltree::Node<'_, '_>| {
+        Some((set.attribute("timestep")?.parse().ok()?, folder.join(set.attribute("file")?)))
+    };
+    let entries: Option<Vec<_>> = sets.map(entry).collect();
+    entries.ok_or_else(|| refused("an entry has no time or no file; run the case again".to_owned()))
+}
+
 /// The series of a file: the folder that contains it.
 fn series_of(frame: &Written) -> &str {
     frame.file.split_once('/').map_or("", |(series, _)| series)
@@ -97,5 +115,11 @@ mod tests {
         series.record(0.1 + 0.2, b"x", &mut list).unwrap();
         assert_eq!(std::fs::read(series.path()).unwrap(), unbroken);
         assert_eq!(std::fs::read_dir(folder.path().join("grid")).unwrap().count(), 3);
+        let times = [0.0, 1.0e-7, 0.1 + 0.2].into_iter().enumerate();
+        let expected: Vec<_> =
+            times.map(|(k, time)| (time, folder.path().join(format!("grid/grid-00000{k}.vtu")))).collect();
+        assert_eq!(read(&series.path()).unwrap(), expected);
+        std::fs::write(series.path(), "damaged").unwrap();
+        assert!(read(&series.path()).unwrap_err().to_string().contains("grid.pvd"));
     }
 }

@@ -5,6 +5,7 @@
 //! pyvista only. Times are in the `.pvd`, units in `units.json` of the output folder.
 
 mod document;
+pub mod read;
 
 use vtkio::IOBuffer;
 use vtkio::model::CellType;

@@ -6,6 +6,7 @@ use super::Dynamic;
 use crate::cycles::{FluidPhase, Invasion};
 use crate::model::Model;
 use crate::occupation::Occupation;
+use crate::pictures::through;
 
 /// A network and the displacement in it.
 pub(crate) struct DynamicModel {
@@ -56,14 +57,20 @@ impl DynamicModel {
             invasions: self.dynamic.invasions().iter().map(|invasion| invasion.map(towards_wetting)).collect(),
             passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
             menisci: self.dynamic.menisci(),
+            open: self.quasi_static.config.sides.map(through),
+            half_cycle: 0,
             films: None,
-            note: format!(
-                "{} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
-                self.invading.process(),
-                self.dynamic.time(),
-                self.injected(),
-                self.capillary_number()
-            ),
         }
+    }
+
+    /// Process and progress as text.
+    pub(crate) fn progress(&self) -> String {
+        format!(
+            "{} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
+            self.invading.process(),
+            self.dynamic.time(),
+            self.injected(),
+            self.capillary_number()
+        )
     }
 }

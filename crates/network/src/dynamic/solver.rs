@@ -10,9 +10,9 @@ use crate::displacement::{Element, EventKind};
 use crate::laplacian::FlowError;
 use crate::model::Model;
 use crate::solver::{NetworkSolver, results_with};
-use crate::{layers, summary, warnings};
+use crate::{layers, pictures, summary, warnings};
 use meniscus_case::network::Stop;
-use meniscus_core::diagram::Diagram;
+use meniscus_core::diagram::{Diagram, RegionMap};
 use meniscus_core::math::Vec2;
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
@@ -200,6 +200,11 @@ impl Solver for DynamicSolver {
 
     fn layers(&self) -> Vec<Layer<'_>> {
         vec![layers::regions(&self.model.quasi_static.config, Some(&self.model.occupation()))]
+    }
+
+    fn region_map(&self) -> Option<RegionMap> {
+        let (occupation, progress) = (self.model.occupation(), self.model.progress());
+        Some(pictures::region_map(&self.model.quasi_static.config, Some((&occupation, progress))))
     }
 
     fn results(&self) -> Results<'_> {

@@ -10,6 +10,7 @@ use meniscus::run::report::Status;
 use meniscus::run::setup;
 use meniscus::run::simulation::{Progress, Unwatched, Watcher};
 use meniscus_case::{Loaded, load};
+use meniscus_core::diagram::{Through, colors};
 use meniscus_core::input::Overrides;
 use meniscus_core::solver::{Series, Solver};
 
@@ -248,5 +249,33 @@ fn a_drawing_has_its_network_at_every_etch_offset() {
     for offset in ["1.988923082e-7", "1.988923104e-7", "1.98892314e-7", "1.9919e-7", "2.395e-7"] {
         let case = loaded(&named("chip"), &[&format!("geometry.etch-offset={offset}")]);
         assert_eq!(measures(setup::build(&case.case).unwrap().as_ref())["pores"], 47.0, "{offset}");
+    }
+}
+
+#[test]
+fn maps_of_a_cycle_show_where_each_half_cycle_comes_from_in_colors_of_one_meaning() {
+    let case = loaded(&named("films"), &[]);
+    let mut solver = setup::build(&case.case).unwrap();
+    let mut maps = Vec::new();
+    while !solver.is_done() {
+        let map = solver.region_map().unwrap();
+        if map.part == maps.len() {
+            maps.push(map);
+        }
+        solver.step(f64::INFINITY).unwrap();
+    }
+    let (inwards, outwards) = (Some(Through::In), Some(Through::Out));
+    let open: Vec<_> = maps.iter().map(|map| map.frame.open).collect();
+    assert_eq!(open, [[inwards, outwards, None, None], [outwards, inwards, None, None]]);
+    let end = solver.region_map().unwrap();
+    assert!(end.note.starts_with("imbibition 1: ") && end.note.ends_with(" Pa"), "{}", end.note);
+    for map in maps.iter().chain([&end]) {
+        let mut colors: Vec<_> = map.classes.iter().map(|(_, color)| color).chain(map.bar).collect();
+        let others = [colors::SOLID, colors::MENISCUS, colors::MARK];
+        colors.extend(&others);
+        let count = colors.len();
+        colors.sort();
+        colors.dedup();
+        assert_eq!(colors.len(), count, "{:?}", map.classes);
     }
 }

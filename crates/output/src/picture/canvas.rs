@@ -3,8 +3,8 @@
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont};
 use meniscus_core::diagram::colors;
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, StrokeDash,
-    Transform,
+    Color, FillRule, LineCap, LineJoin, Mask, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke,
+    StrokeDash, Transform,
 };
 
 /// A picture that cannot be drawn.
@@ -29,12 +29,18 @@ pub enum PictureError {
     Encode(String),
 }
 
+/// Space in pixels for the dot of a legend entry, from its center on, and before it.
+const DOT: f32 = 22.0;
+const GAP: f32 = 40.0;
+
 /// A color as red, green, blue.
 pub(crate) type Rgb = [u8; 3];
 
 /// A canvas. Lengths in pixels, y downwards.
 pub(crate) struct Canvas {
     pixels: Pixmap,
+    /// Where lines are drawn; `None`: everywhere.
+    mask: Option<Mask>,
     font: FontRef<'static>,
 }
 
@@ -59,7 +65,7 @@ impl Canvas {
         let mut pixels = Pixmap::new(width, height).ok_or(PictureError::Size { width, height })?;
         pixels.fill(Color::WHITE);
         let font = FontRef::try_from_slice(dejavu::sans::regular()).map_err(|_| PictureError::Font)?;
-        Ok(Self { pixels, font })
+        Ok(Self { pixels, mask: None, font })
     }
 
     /// A filled rectangle, from its upper left corner.
@@ -87,6 +93,24 @@ impl Canvas {
         }
     }
 
+    /// From now on, lines are drawn inside these polygons only.
+    pub(crate) fn within<P: Iterator<Item = [f32; 2]>>(&mut self, polygons: impl Iterator<Item = P>) {
+        let mut mask = Mask::new(self.pixels.width(), self.pixels.height());
+        for polygon in polygons {
+            let mut builder = path(polygon);
+            builder.close();
+            if let (Some(mask), Some(path)) = (&mut mask, builder.finish()) {
+                mask.fill_path(&path, FillRule::Winding, true, Transform::identity());
+            }
+        }
+        self.mask = mask;
+    }
+
+    /// From now on, lines are drawn everywhere.
+    pub(crate) fn everywhere(&mut self) {
+        self.mask = None;
+    }
+
     /// Whitens everything outside of a rectangle with the given upper left corner.
     pub(crate) fn wipe_outside(&mut self, [x, y]: [f32; 2], [width, tall]: [f32; 2]) {
         const WHITE: Rgb = [255, 255, 255];
@@ -111,20 +135,24 @@ impl Canvas {
 
     fn stroke(&mut self, vertices: impl Iterator<Item = [f32; 2]>, stroke: &Stroke, color: Rgb) {
         if let Some(path) = path(vertices).finish() {
-            self.pixels.stroke_path(&path, &paint(color), stroke, Transform::identity(), None);
+            self.pixels.stroke_path(&path, &paint(color), stroke, Transform::identity(), self.mask.as_ref());
         }
     }
 
-    /// Legend entries with a dot of their color each, from right to left; the last one ends at `end`.
-    pub(crate) fn legend(&mut self, entries: &[(&str, Rgb)], end: [f32; 2], size: f32) {
+    /// Legend entries with a dot of their color each, from right to left; the last one ends at `end`. They are smaller if they would need more than the `room`.
+    pub(crate) fn legend(&mut self, entries: &[(impl AsRef<str>, Rgb)], end: [f32; 2], room: f32, size: f32) {
         let [mut x, y] = end;
+        let wide: f32 = entries.iter().map(|(name, _)| self.text_width(name.as_ref(), size) + DOT + GAP).sum();
+        let shrunk = (room / wide).min(1.0);
+        let size = shrunk * size;
         for (name, color) in entries.iter().rev() {
+            let name = name.as_ref();
             x -= self.text_width(name, size);
             self.text(name, [x, y], size);
-            x -= 22.0;
-            self.circles([[x, y - 8.0]].into_iter(), 11.0, colors::WALL);
-            self.circles([[x, y - 8.0]].into_iter(), 10.0, *color);
-            x -= 40.0;
+            x -= shrunk * DOT;
+            self.circles([[x, y - shrunk * 8.0]].into_iter(), shrunk * 11.0, colors::WALL);
+            self.circles([[x, y - shrunk * 8.0]].into_iter(), shrunk * 10.0, *color);
+            x -= shrunk * GAP;
         }
     }
 
@@ -181,19 +209,42 @@ impl Canvas {
         });
     }
 
-    /// The canvas as a PNG file.
-    pub(crate) fn png(&self) -> Result<Vec<u8>, PictureError> {
+    /// The canvas as a picture.
+    pub(crate) fn picture(&self) -> Picture {
         // Opaque everywhere, so three channels suffice.
-        let colors = self.pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
-        let (width, height) = (self.pixels.width(), self.pixels.height());
+        let colors = self.pixels.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+        Picture { size: [self.pixels.width(), self.pixels.height()], colors }
+    }
+}
+
+/// A picture in pixels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Width and height.
+    pub(crate) size: [u32; 2],
+    /// Row by row.
+    pub(crate) colors: Vec<Rgb>,
+}
+
+impl Picture {
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// [`PictureError::Encode`].
+    pub fn png(&self) -> Result<Vec<u8>, PictureError> {
         let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, width, height);
+        let mut encoder = png::Encoder::new(&mut bytes, self.size[0], self.size[1]);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_compression(png::Compression::Fast);
         encoder.set_filter(png::Filter::Adaptive);
-        let colors: Vec<u8> = colors.collect();
-        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&colors));
+        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(self.colors.as_flattened()));
         written.map_err(|error| PictureError::Encode(error.to_string()))?;
         Ok(bytes)
+    }
+
+    /// Number of pixels of a color.
+    #[cfg(test)]
+    pub(crate) fn count(&self, color: Rgb) -> usize {
+        self.colors.iter().filter(|found| **found == color).count()
     }
 }

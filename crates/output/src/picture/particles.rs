@@ -3,7 +3,8 @@
 //! Gray is solid: the fluids are drawn over it as dots that just touch. The core of particles `below-resolution` has its own color. All fields other than
 //! `phase` are left to ParaView.
 
-use super::canvas::{Canvas, PictureError, Rgb};
+use super::canvas::{Canvas, Picture, PictureError, Rgb};
+use super::contact::to_walls;
 use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, PORE, RIM, SOLID, TEXT_SIZE, UNRESOLVED, WIDTH, time_text};
 use super::view::{View, heading, scale_bar};
 use meniscus_core::diagram::Frame;
@@ -19,34 +20,115 @@ const CORE: f32 = 0.38;
 /// Below this radius in pixels, inner dots are not drawn.
 const SMALLEST_CORE: f32 = 1.5;
 
-/// Draws a snapshot and the outline of its solids as a PNG file.
+/// The section that is drawn and what the legend names.
+#[derive(Debug, Clone)]
+pub(super) struct ParticleScene {
+    bounds: Bounds,
+    /// The distance between neighboring particles in m.
+    spacing: f64,
+    /// Whether there is each of [`FLUIDS`].
+    fluids: [bool; FLUIDS.len()],
+    has_solid: bool,
+    has_unresolved: bool,
+    has_interface: bool,
+}
+
+impl ParticleScene {
+    pub(super) fn of(snapshot: &Snapshot<'_>, frame: Option<&Frame>) -> Result<Self, PictureError> {
+        let points = &snapshot.particles.points;
+        let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
+        let tight = Bounds::around(points.iter().filter(finite).copied()).ok_or(PictureError::Empty)?;
+        let spacing = particle_spacing(snapshot, &tight);
+        let mut bounds = tight.grown(0.5 * spacing);
+        // What leaves a periodic side comes back at the other one.
+        for axis in (0..2).filter(|&axis| frame.is_some_and(|frame| frame.periodic[axis])) {
+            [bounds.min[axis], bounds.max[axis]] = frame.map_or([0.0; 2], |frame| frame.bounds.map(|end| end[axis]));
+        }
+        let has = |number| (0..points.len()).any(|a| phase_of(snapshot, a) == Some(number));
+        Ok(Self {
+            bounds,
+            spacing,
+            fluids: FLUIDS.each_ref().map(|phase| has(phase.number)),
+            has_solid: has(SOLID_PHASE),
+            has_unresolved: unresolved(snapshot).next().is_some(),
+            has_interface: snapshot.interface.as_ref().is_some_and(|interface| !interface.lines.is_empty()),
+        })
+    }
+
+    pub(super) fn with(self, other: &Self) -> Self {
+        let mut fluids = self.fluids;
+        fluids.iter_mut().zip(other.fluids).for_each(|(has, other)| *has |= other);
+        Self {
+            bounds: self.bounds.united(&other.bounds),
+            spacing: self.spacing,
+            fluids,
+            has_solid: self.has_solid || other.has_solid,
+            has_unresolved: self.has_unresolved || other.has_unresolved,
+            has_interface: self.has_interface || other.has_interface,
+        }
+    }
+
+    /// Names and colors of what is drawn.
+    fn legend(&self) -> Vec<(&'static str, Rgb)> {
+        let fluids = FLUIDS.iter().zip(self.fluids).map(|(phase, is)| (is, phase.name, phase.color));
+        let others = [
+            (self.has_solid, "solid", SOLID),
+            (self.has_unresolved, "not resolved", UNRESOLVED),
+            (self.has_interface, "interface", INTERFACE),
+        ];
+        fluids.chain(others).filter(|(is, ..)| *is).map(|(_, name, color)| (name, color)).collect()
+    }
+}
+
+/// Number of solids in the field `phase`.
+const SOLID_PHASE: i64 = 2;
+
+/// Draws a snapshot and the outline of its solids.
 pub(super) fn particle_picture(
+    scene: &ParticleScene,
     snapshot: &Snapshot<'_>,
     outline: &Lines<'_>,
     title: &str,
     frame: Option<&Frame>,
-) -> Result<Vec<u8>, PictureError> {
-    let points = &snapshot.particles.points;
-    let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
-    let tight = Bounds::around(points.iter().filter(finite).copied()).ok_or(PictureError::Empty)?;
-    let spacing = particle_spacing(snapshot, &tight);
-    let bounds = tight.grown(0.5 * spacing);
+) -> Result<Picture, PictureError> {
+    let (bounds, spacing) = (scene.bounds, scene.spacing);
     let view = View::new(bounds, frame);
     let height = (HEAD + view.size[1] + FOOT).ceil() as u32;
     let mut canvas = Canvas::new(WIDTH, height)?;
     canvas.rectangle(view.corner, view.size, SOLID);
-    fluids(&mut canvas, &view, snapshot, spacing);
+    let periods = periods(frame);
+    let is_near = |x: &Vec2| distance_outside(&bounds, *x) < spacing;
+    let images = |x: Vec2| periods.iter().map(move |period| x + period).filter(is_near).collect::<Vec<_>>();
+    fluids(&mut canvas, &view, snapshot, spacing, images);
     strokes(&mut canvas, &view, outline, 2.5, OUTLINE, &[Vec2::zeros()]);
     if let Some(interface) = &snapshot.interface {
-        strokes(&mut canvas, &view, interface, 3.5, INTERFACE, &periods(frame));
+        strokes(&mut canvas, &view, &ending_at_walls(interface, outline, spacing), 3.5, INTERFACE, &periods);
     }
     view.frame(&mut canvas);
     // A geometry has no time.
-    let is_geometry = (0..points.len()).any(|a| phase_of(snapshot, a) == Some(PORE));
+    let is_geometry = (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(PORE));
     heading(&mut canvas, title, &if is_geometry { String::new() } else { time_text(snapshot.time) });
-    scale_bar(&mut canvas, view.scale, bounds.size().x.max(0.5 * bounds.size().y), view.bottom() + 30.0);
-    legend(&mut canvas, &view, snapshot);
-    canvas.png()
+    let [bar, _] = scale_bar(&mut canvas, view.scale, bounds.size().x.max(0.5 * bounds.size().y), view.bottom() + 30.0);
+    let end = WIDTH as f32 - RIM;
+    canvas.legend(&scene.legend(), [end, view.bottom() + 38.0], end - bar, TEXT_SIZE);
+    Ok(canvas.picture())
+}
+
+/// Distance in m from a rectangle along the axis on which it is larger; 0 inside.
+fn distance_outside(bounds: &Bounds, x: Vec2) -> f64 {
+    (bounds.min - x).sup(&(x - bounds.max)).max().max(0.0)
+}
+
+/// The interface with its ends on the walls.
+fn ending_at_walls(interface: &Lines<'_>, outline: &Lines<'_>, spacing: f64) -> Lines<'static> {
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
+    for line in &interface.lines {
+        let vertices = line.iter().filter_map(|&i| interface.points.get(i as usize).copied()).collect::<Vec<_>>();
+        let first = points.len() as u32;
+        points.extend(to_walls(&vertices, outline, spacing));
+        lines.push((first..points.len() as u32).collect());
+    }
+    Lines { points: points.into(), lines, fields: Vec::new() }
 }
 
 /// The distance between neighboring particles in m: from the mean of the field `volume`, else from the area they fill.
@@ -80,7 +162,8 @@ fn unresolved<'a>(snapshot: &'a Snapshot<'_>) -> impl Iterator<Item = Vec2> + 'a
     marks.iter().zip(snapshot.particles.points.iter()).filter(|(mark, _)| **mark != 0).map(|(_, x)| *x)
 }
 
-fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f64) {
+/// The particles as dots, at all of their `images` in the section.
+fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f64, images: impl Fn(Vec2) -> Vec<Vec2>) {
     let radius = (spacing * view.scale) as f32;
     for (cover, is_core) in [(COVER * radius, false), (CORE * radius, true)] {
         if is_core && cover < SMALLEST_CORE {
@@ -88,13 +171,13 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
         }
         for phase in &FLUIDS {
             let centers = snapshot.particles.points.iter().enumerate();
-            let centers =
-                centers.filter(|(a, _)| phase_of(snapshot, *a) == Some(phase.number)).map(|(_, &x)| view.pixel(x));
+            let centers = centers.filter(|(a, _)| phase_of(snapshot, *a) == Some(phase.number));
+            let centers = centers.flat_map(|(_, &x)| images(x)).map(|x| view.pixel(x));
             canvas.circles(centers, cover.max(1.0), if is_core { phase.core } else { phase.color });
         }
     }
     let core = (CORE * radius).max(SMALLEST_CORE);
-    canvas.circles(unresolved(snapshot).map(|x| view.pixel(x)), core, UNRESOLVED);
+    canvas.circles(unresolved(snapshot).flat_map(&images).map(|x| view.pixel(x)), core, UNRESOLVED);
 }
 
 /// Lines, translated by each of `shifts` in m.
@@ -113,17 +196,6 @@ fn periods(frame: Option<&Frame>) -> Vec<Vec2> {
         if frame.periodic[axis] { vec![-period, 0.0, period] } else { vec![0.0] }
     });
     along_x.iter().flat_map(|&x| along_y.iter().map(move |&y| Vec2::new(x, y))).collect()
-}
-
-/// The legend, from the right.
-fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
-    let y = view.bottom() + 38.0;
-    let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));
-    let interface = snapshot.interface.as_ref().map(|_| ("interface", INTERFACE));
-    let thin = unresolved(snapshot).next().map(|_| ("not resolved", UNRESOLVED));
-    let fluids = FLUIDS.iter().filter(|phase| present(phase.number)).map(|phase| (phase.name, phase.color));
-    let entries: Vec<_> = fluids.chain([("solid", SOLID)]).chain(thin).chain(interface).collect();
-    canvas.legend(&entries, [WIDTH as f32 - RIM, y], TEXT_SIZE);
 }
 
 #[cfg(test)]
@@ -146,17 +218,16 @@ mod tests {
         Snapshot { time: 2.5e-3, step: 10, particles, grid: None, interface: None }
     }
 
-    fn colors(pixels: &tiny_skia::Pixmap) -> Vec<Rgb> {
-        pixels.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
+    fn draw(snapshot: &Snapshot<'_>, frame: Option<&Frame>) -> Result<Picture, PictureError> {
+        particle_picture(&ParticleScene::of(snapshot, frame)?, snapshot, &Lines::default(), "", frame)
     }
 
     #[test]
     fn a_picture_shows_both_fluids_and_is_1200_pixels_wide() {
-        let png = particle_picture(&disc_in_a_box(), &Lines::default(), "A disc of liquid on a floor", None).unwrap();
-        let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
-        assert_eq!(pixels.width(), WIDTH);
+        let drawn = draw(&disc_in_a_box(), None).unwrap();
+        assert_eq!(drawn.size[0], WIDTH);
         for color in [FLUIDS[0].color, FLUIDS[1].color, SOLID] {
-            let count = colors(&pixels).into_iter().filter(|found| *found == color).count();
+            let count = drawn.count(color);
             assert!(count > 10_000, "{count} pixels of {color:?}");
         }
     }
@@ -165,23 +236,35 @@ mod tests {
     fn what_lies_beyond_an_open_side_is_white_with_arrows() {
         let open = [Some(Through::In), Some(Through::Out), None, None];
         let frame = Frame { bounds: [[1.0e-4, 0.0], [3.0e-4, 3.0e-4]], open, periodic: [false; 2] };
-        let png = particle_picture(&disc_in_a_box(), &Lines::default(), "", Some(&frame)).unwrap();
-        let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
-        let colors = colors(&pixels);
-        let of = |x: usize| colors[(HEAD as usize + 40) * pixels.width() as usize + x];
+        let drawn = draw(&disc_in_a_box(), Some(&frame)).unwrap();
+        let of = |x: usize| drawn.colors[(HEAD as usize + 40) * WIDTH as usize + x];
         let view = View::new(Bounds { min: Vec2::zeros(), max: Vec2::new(4.0e-4, 3.0e-4) }, Some(&frame));
         let at = |x: f64| view.pixel(Vec2::new(x, 1.0e-4))[0] as usize;
         assert_eq!([of(at(0.99e-4)), of(at(3.02e-4))], [[255; 3]; 2]);
         assert_ne!(of(at(2.5e-4)), [255; 3]);
-        let arrows = colors.iter().filter(|color| **color == OUTLINE).count();
+        let arrows = drawn.count(OUTLINE);
         assert!(arrows > 500, "{arrows}");
+    }
+
+    #[test]
+    fn fluid_fills_a_periodic_domain_up_to_its_sides_and_the_legend_names_no_solid() {
+        let points: Vec<Vec2> =
+            (0..40 * 30).map(|i| Vec2::new(f64::from(i % 40) + 0.9, f64::from(i / 40) + 0.7) * 1.0e-5).collect();
+        let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(vec![1; points.len()].into()) }];
+        let snapshot = Snapshot { particles: Cloud { points: points.into(), fields }, ..disc_in_a_box() };
+        let frame = Frame { bounds: [[0.0, 0.0], [4.0e-4, 3.0e-4]], open: [None; 4], periodic: [true; 2] };
+        // Some pixels of letters have the gray of solids, too.
+        let gray = draw(&snapshot, Some(&frame)).unwrap().count(SOLID);
+        assert!(gray < 100, "{gray}");
+        assert_eq!(ParticleScene::of(&snapshot, Some(&frame)).unwrap().legend(), [("non-wetting", FLUIDS[1].color)]);
     }
 
     #[test]
     fn nothing_to_draw_is_an_error_and_one_particle_is_not() {
         let mut snapshot = Snapshot { time: 0.0, step: 0, particles: Cloud::default(), grid: None, interface: None };
-        assert!(matches!(particle_picture(&snapshot, &Lines::default(), "", None), Err(PictureError::Empty)));
+        assert!(matches!(draw(&snapshot, None), Err(PictureError::Empty)));
         snapshot.particles.points = vec![Vec2::zeros()].into();
-        particle_picture(&snapshot, &Lines::default(), &"A very long title ".repeat(20), None).unwrap();
+        let scene = ParticleScene::of(&snapshot, None).unwrap();
+        particle_picture(&scene, &snapshot, &Lines::default(), &"A very long title ".repeat(20), None).unwrap();
     }
 }

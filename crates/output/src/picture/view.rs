@@ -112,9 +112,11 @@ pub(super) fn heading(canvas: &mut Canvas, title: &str, note: &str) {
     canvas.text(note, [RIM, 82.0], TEXT_SIZE);
 }
 
-/// Draws a scale bar of a round length below a drawing of this width in m.
-pub(super) fn scale_bar(canvas: &mut Canvas, scale: f64, width: f64, y: f32) {
+/// Draws a scale bar of a round length below a drawing of this width in m; returns the ends of the bar and of its text in pixels.
+pub(super) fn scale_bar(canvas: &mut Canvas, scale: f64, width: f64, y: f32) -> [f32; 2] {
     let length = round_length(BAR_SHARE * width);
-    canvas.rectangle([RIM, y - 4.0], [(length * scale) as f32, 8.0], BLACK);
-    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
+    let (text, pixels) = (length_text(length), (length * scale) as f32);
+    canvas.rectangle([RIM, y - 4.0], [pixels, 8.0], BLACK);
+    canvas.text(&text, [RIM, y + 38.0], TEXT_SIZE);
+    [RIM + pixels, RIM + canvas.text_width(&text, TEXT_SIZE)]
 }

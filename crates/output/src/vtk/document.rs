@@ -27,7 +27,7 @@ use vtkio::xml::{
 use super::{Compression, VtkError};
 
 /// Bytes of a block before compression, as in VTK itself.
-const BLOCK: usize = 32768;
+pub(super) const BLOCK: usize = 32768;
 
 /// Binary form of numbers: little endian, after their byte count, which has this size.
 const PLAIN: EncodingInfo = EncodingInfo {
@@ -36,7 +36,7 @@ const PLAIN: EncodingInfo = EncodingInfo {
     compressor: Compressor::None,
     compression_level: 0,
 };
-const HEADER: usize = size_of::<u64>();
+pub(super) const HEADER: usize = size_of::<u64>();
 
 /// The file.
 #[derive(Serialize)]
