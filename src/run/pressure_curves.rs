@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use meniscus_core::diagram::{Diagram, Stroke, Trace};
+use meniscus_core::diagram::{Axis, Diagram, Stroke, Trace};
 use meniscus_output::diagram::{DiagramError, svg};
 
 /// Name of the diagram: its file is `capillary-pressure.svg`.
 pub(crate) const NAME: &str = "capillary-pressure";
 /// Its title, and what is along x and y.
 pub(crate) const TITLE: &str = "Capillary pressure over saturation";
-pub(crate) const LABELS: [&str; 2] = ["saturation of the wetting phase", "capillary pressure p_n - p_w in Pa"];
+pub(crate) const LABELS: [&str; 2] = ["saturation of the wetting phase", "capillary pressure p_n - p_w (Pa)"];
 /// With films, the curve at every pressure.
 const CURVE: &str = "capillary_pressure.csv";
 /// Otherwise saturations change only at events.
@@ -24,16 +24,35 @@ struct Row {
     pressure: Option<f64>,
 }
 
-/// The named curves of the runs in these folders, as SVG; `None` if no run has one.
-pub(crate) fn overlay(runs: &[(String, PathBuf)]) -> Result<Option<String>, DiagramError> {
-    let trace = |(name, folder): &(String, PathBuf)| {
-        Some(Trace { name: name.clone(), stroke: Stroke::Full, points: curve(folder)? })
+/// A run whose curve is drawn with those of others.
+#[derive(Debug, Clone)]
+pub(crate) struct Overlaid {
+    /// Its name in the legend.
+    pub(crate) name: String,
+    /// The number by which it differs from the others, if it is one alone.
+    pub(crate) number: Option<f64>,
+    /// Its folder.
+    pub(crate) folder: PathBuf,
+}
+
+/// The curves of the runs as SVG, with names that give `names_give`, or colored by their numbers, whose quantity is `shades`; `None` if no run has one.
+pub(crate) fn overlay(
+    runs: &[Overlaid],
+    names_give: String,
+    shades: &dyn Fn(&[f64]) -> Axis,
+) -> Result<Option<String>, DiagramError> {
+    let trace = |run: &Overlaid| {
+        Some((run.number, Trace { name: run.name.clone(), stroke: Stroke::Full, points: curve(&run.folder)? }))
     };
-    let traces: Vec<Trace> = runs.iter().filter_map(trace).collect();
+    let (numbers, traces): (Vec<Option<f64>>, Vec<Trace>) = runs.iter().filter_map(trace).unzip();
     if traces.is_empty() {
         return Ok(None);
     }
-    svg(&Diagram::linear(NAME, TITLE, LABELS, traces))
+    let diagram = Diagram { names_give, ..Diagram::linear(NAME, TITLE, LABELS, traces) };
+    match numbers.into_iter().collect::<Option<Vec<f64>>>() {
+        Some(numbers) => svg(&diagram.shaded_if_many(shades(&numbers), numbers)),
+        None => svg(&diagram),
+    }
 }
 
 /// The curve of the quasi-static displacement in a folder, half cycles joined.
@@ -79,10 +98,16 @@ mod tests {
         let stairs = [[1.0, 10.0], [0.5, 10.0], [0.5, 20.0], [0.25, 20.0], [0.25, 5.0], [0.375, 5.0], [0.75, 5.0]];
         assert_eq!(curve(folder.path()).unwrap(), stairs);
         let empty = tempfile::tempdir().unwrap();
-        let runs =
-            [("angle = 40", &folder), ("angle = 60", &empty)].map(|(name, it)| (name.to_owned(), it.path().to_owned()));
-        let drawn = overlay(&runs).unwrap().unwrap();
+        let runs = [(40.0, &folder), (60.0, &empty)].map(|(angle, it)| Overlaid {
+            name: format!("angle = {angle}"),
+            number: Some(angle),
+            folder: it.path().to_owned(),
+        });
+        let shades = |_: &[f64]| Axis::linear("angle (degrees)");
+        let drawn = overlay(&runs, String::new(), &shades).unwrap().unwrap();
         assert!(drawn.contains("angle = 40") && !drawn.contains("angle = 60"));
-        assert_eq!(overlay(&runs[1..]).unwrap(), None);
+        assert_eq!(overlay(&runs[1..], String::new(), &shades).unwrap(), None);
+        let many = overlay(&vec![runs[0].clone(); 30], String::new(), &shades).unwrap().unwrap();
+        assert!(many.contains("angle (degrees)") && !many.contains("angle = 40"));
     }
 }

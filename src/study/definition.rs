@@ -182,6 +182,8 @@ pub struct ReportPlan {
     pub measures: Option<Vec<String>>,
     /// The curves.
     pub curves: Vec<Curve>,
+    /// The maps.
+    pub maps: Vec<MapPlan>,
     /// Whether the page shows the picture of each run.
     pub pictures: bool,
 }
@@ -189,8 +191,8 @@ pub struct ReportPlan {
 /// A curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Title.
-    pub title: String,
+    /// Title; the words of y and x if `None`.
+    pub title: Option<String>,
     /// Parameter or measure along x.
     pub x: String,
     /// Measure along y.
@@ -205,6 +207,25 @@ pub struct Curve {
     pub x_scale: RawScale,
     /// Scale of y.
     pub y_scale: RawScale,
+}
+
+/// A measure over two parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapPlan {
+    /// Title; the words of the measure and of x and y if `None`.
+    pub title: Option<String>,
+    /// Parameter along x.
+    pub x: String,
+    /// Parameter along y.
+    pub y: String,
+    /// The measure.
+    pub measure: String,
+    /// Scale of x.
+    pub x_scale: RawScale,
+    /// Scale of y.
+    pub y_scale: RawScale,
+    /// Scale of the colors.
+    pub scale: RawScale,
 }
 
 impl Study {

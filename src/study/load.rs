@@ -56,7 +56,7 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let set = assignments(&mut checker, raw.set.as_deref().unwrap_or_default());
     check_keys(&mut checker, &axes, &set);
     // A parameter of an invalid axis would seem unknown.
-    let names = Names { axes: &axes, complete: all_axes };
+    let names = Names { axes: &axes, sampling: sampling.as_ref(), complete: all_axes };
     let expectations = raw.expect.iter().flatten().enumerate();
     let expectations: Vec<Option<Expectation>> =
         expectations.map(|(index, raw)| names.expectation(&mut checker, raw, &format!("expect[{index}]"))).collect();

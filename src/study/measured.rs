@@ -1,4 +1,4 @@
-//! Whether the runs of a study have the measures that it names: in expectations and trends, curves and the table.
+//! Whether the runs of a study have the measures that it names: in expectations and trends, curves, maps and the table.
 //!
 //! All runs must have a measure that is expected of them; for the report, one run is sufficient.
 
@@ -18,9 +18,11 @@ pub(super) fn problems(study: &Study, planned: &[PlannedRun]) -> Vec<Problem> {
     let curves = study.report.curves.iter().enumerate().flat_map(|(k, curve)| {
         [("x", &curve.x), ("y", &curve.y)].map(|(key, name)| names.of_some(format!("report.curve[{k}].{key}"), name))
     });
+    let maps = study.report.maps.iter().enumerate();
+    let maps = maps.map(|(k, map)| names.of_some(format!("report.map[{k}].measure"), &map.measure));
     let table = study.report.measures.iter().flatten().enumerate();
     let table = table.map(|(k, name)| names.of_some(format!("report.measures[{k}]"), name));
-    expected.chain(trends).chain(curves).chain(table).flatten().collect()
+    expected.chain(trends).chain(curves).chain(maps).chain(table).flatten().collect()
 }
 
 /// What a study names of its measures.
@@ -29,7 +31,8 @@ pub(super) fn names(study: &Study) -> impl Iterator<Item = &str> {
     let expected = study.expectations.iter().map(|one| &one.measure);
     let trends = study.trends.iter().map(|one| &one.measure);
     let curves = study.report.curves.iter().flat_map(|curve| [&curve.x, &curve.y]);
-    table.chain(expected).chain(trends).chain(curves).map(String::as_str)
+    let maps = study.report.maps.iter().map(|map| &map.measure);
+    table.chain(expected).chain(trends).chain(curves).chain(maps).map(String::as_str)
 }
 
 struct Names<'a> {

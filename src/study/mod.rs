@@ -3,8 +3,9 @@
 //! [`load`] reads a study file into a [`definition::Study`]; [`runs`] generates its [`run`]s and checks their cases; [`estimate`] estimates the cost of each;
 //! [`execute`] does one of them, or a [`comparison`] of its case with a network, and [`engine`] all, each as a process; [`slurm`] submits them to a cluster,
 //! and a Python program to its workers ([`numbered`], [`session`]). [`results`] reads their reports back, [`convergence`] and [`verdict`] evaluate them, and
-//! [`report`] writes [`table`]s, [`curve`]s and the [`page`]. Independent of solvers and models: a study consists of case files, folders and reports.
+//! [`report`] writes [`table`]s, [`curve`]s, [`map`]s and the [`page`]. Independent of solvers and models: a study consists of case files, folders and reports.
 
+mod apart;
 mod axis;
 mod base_case;
 pub(crate) mod child;
@@ -18,6 +19,7 @@ pub(crate) mod estimate;
 pub mod execute;
 pub(crate) mod folder;
 pub mod load;
+mod map;
 mod measured;
 #[cfg(test)]
 mod mock;
@@ -37,6 +39,7 @@ pub(crate) mod slurm;
 pub(crate) mod table;
 pub(crate) mod values;
 pub(crate) mod verdict;
+mod wording;
 
 pub use engine::End;
 pub use load::schema;

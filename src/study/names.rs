@@ -1,12 +1,12 @@
-//! Measures in a study file: expectations, trends and curves, which refer to parameters by the names of the axes.
+//! Measures in a study file: expectations, trends, curves and maps, which refer to parameters by the names of the axes.
 
 use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
-use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
-use super::values::{number_of, same, shown};
+use super::definition::{Axis, Choice, Curve, Expectation, MapPlan, Quantity, ReportPlan, Sampling, Trend};
+use super::raw::{RawCurve, RawExpectation, RawMap, RawReport, RawTrend};
+use super::values::{number_of, numbers, same, shown};
 use meniscus_core::input::tables::Key;
 use meniscus_core::input::{Checker, nearest};
 
@@ -14,6 +14,8 @@ use meniscus_core::input::{Checker, nearest};
 pub(super) struct Names<'a> {
     /// The axes.
     pub(crate) axes: &'a [Axis],
+    /// The samples, if any.
+    pub(crate) sampling: Option<&'a Sampling>,
     /// Whether all axes are valid.
     pub(crate) complete: bool,
 }
@@ -126,9 +128,13 @@ impl Names<'_> {
         let curves = raw.curve.iter().flatten().enumerate();
         let curves: Vec<Option<Curve>> =
             curves.map(|(index, raw)| self.curve(checker, raw, &format!("report.curve[{index}]"))).collect();
+        let maps = raw.map.iter().flatten().enumerate();
+        let maps: Vec<Option<MapPlan>> =
+            maps.map(|(index, raw)| self.map(checker, raw, &format!("report.map[{index}]"))).collect();
         Some(ReportPlan {
             measures: raw.measures,
             curves: curves.into_iter().collect::<Option<_>>()?,
+            maps: maps.into_iter().collect::<Option<_>>()?,
             pictures: raw.pictures.unwrap_or(true),
         })
     }
@@ -147,12 +153,8 @@ impl Names<'_> {
         };
         let (x, y) = (raw.x.clone()?, raw.y.clone()?);
         let error = raw.error.unwrap_or(false);
-        let title = raw
-            .title
-            .clone()
-            .unwrap_or_else(|| if error { format!("error of {y} over {x}") } else { format!("{y} over {x}") });
         Some(Curve {
-            title,
+            title: raw.title.clone(),
             x,
             y,
             series,
@@ -160,6 +162,42 @@ impl Names<'_> {
             error,
             x_scale: raw.x_scale.unwrap_or_default(),
             y_scale: raw.y_scale.unwrap_or_default(),
+        })
+    }
+
+    /// A parameter along an axis of a map.
+    fn side(&self, checker: &mut Checker, at: &str, name: &str) -> Option<String> {
+        let name = self.numeric(checker, at, name)?;
+        if self.sampling.is_some_and(|sampling| sampling.has(&name)) {
+            let message = format!("expected a parameter with values or a range, `{name}` is sampled");
+            checker.refuse(at, message, "give its axis `values` or a `range` in place of its distribution");
+        } else if self.values(&name).is_some_and(|values| numbers(values).len() < 2) {
+            checker.refuse(at, format!("expected a parameter with several values, `{name}` has one"), "");
+        }
+        Some(name)
+    }
+
+    fn map(&self, checker: &mut Checker, raw: &RawMap, at: &str) -> Option<MapPlan> {
+        let x = raw.x.as_ref().map(|name| self.side(checker, &format!("{at}.x"), name));
+        let y = raw.y.as_ref().map(|name| self.side(checker, &format!("{at}.y"), name));
+        let (x, y) = (x??, y??);
+        if x == y {
+            let others: Vec<&str> = self.axes.iter().flat_map(|axis| &axis.columns).map(|c| c.name.as_str()).collect();
+            let others = others.into_iter().filter(|name| *name != x && self.is_numeric(name)).collect::<Vec<_>>();
+            let help = match &others[..] {
+                [] => "the study has no other parameter with numbers: draw a curve".to_owned(),
+                others => format!("name another parameter: {}", others.join(", ")),
+            };
+            checker.refuse(format!("{at}.y"), format!("`{y}` is along x already"), help);
+        }
+        Some(MapPlan {
+            title: raw.title.clone(),
+            x,
+            y,
+            measure: raw.measure.clone()?,
+            x_scale: raw.x_scale.unwrap_or_default(),
+            y_scale: raw.y_scale.unwrap_or_default(),
+            scale: raw.scale.unwrap_or_default(),
         })
     }
 }

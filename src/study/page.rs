@@ -1,4 +1,4 @@
-//! The page of a study: one HTML file that opens from the disk without a network. Curves are inline; pictures are in the folders of the runs.
+//! The page of a study: one HTML file that opens from the disk without a network. Curves and maps are inline; pictures are in the folders of the runs.
 
 use std::fmt::Write;
 
@@ -9,6 +9,7 @@ use super::results::{RunResult, RunState, moving};
 use super::table::{Table, shown_measures};
 use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
+use super::wording::Wording;
 use crate::run::compare::PAGE;
 use meniscus_output::html::{self, escaped};
 
@@ -23,6 +24,10 @@ pub(crate) struct Content<'a> {
     pub(crate) table: &'a Table,
     /// The curves as SVG.
     pub(crate) curves: &'a [String],
+    /// The maps as SVG.
+    pub(crate) maps: &'a [String],
+    /// The words of its parameters and measures.
+    pub(crate) wording: &'a Wording,
     /// The expectations.
     pub(crate) judgments: &'a [Judgment],
     /// Errors along spacings.
@@ -59,6 +64,11 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         html.extend(content.curves.iter().map(String::as_str));
         html += "\n</div>\n";
     }
+    if !content.maps.is_empty() {
+        html += "<h2>Maps</h2>\n<div class=\"diagrams\">\n";
+        html.extend(content.maps.iter().map(|map| format!("<figure>{map}</figure>\n")));
+        html += "</div>\n";
+    }
     if let Some(curves) = content.pressures {
         html += &format!("<h2>Capillary pressure of all runs</h2>\n<div class=\"curves\">\n{curves}\n</div>\n");
     }
@@ -70,9 +80,9 @@ pub(crate) fn page(content: &Content<'_>) -> String {
     html += &content.table.html();
     html += "</div>\n";
     if content.study.report.pictures && content.study.compare.is_some() {
-        push_comparisons(&mut html, content.comparisons);
+        push_comparisons(&mut html, content.comparisons, content.wording);
     } else if content.study.report.pictures {
-        push_pictures(&mut html, content.results);
+        push_pictures(&mut html, content.results, content.wording);
         push_diagrams(&mut html, content.results, content.diagrams);
     }
     html::page(&content.study.title, &html)
@@ -140,24 +150,24 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
     html.push_str(&Table { heads, rows: convergences.iter().map(row).collect() }.html());
 }
 
-fn push_pictures(html: &mut String, results: &[RunResult]) {
+fn push_pictures(html: &mut String, results: &[RunResult], wording: &Wording) {
     html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
     for result in results.iter().filter(|result| result.state.report().is_some()) {
-        *html += &html::figure(&format!("runs/{}/picture.png", escaped(&result.run.name)), &caption(result));
+        *html += &html::figure(&format!("runs/{}/picture.png", escaped(&result.run.name)), &caption(result, wording));
     }
     html.push_str("</div>\n");
 }
 
 /// The parameters of a run with their values.
-fn caption(result: &RunResult) -> String {
-    escaped(&result.run.values(|_| true))
+fn caption(result: &RunResult, wording: &Wording) -> String {
+    escaped(&wording.values(&result.run, |_| true))
 }
 
 /// The curves of network and direct simulation of each run; the whole comparison is in the folder of the run.
-fn push_comparisons(html: &mut String, comparisons: &[(&RunResult, String)]) {
+fn push_comparisons(html: &mut String, comparisons: &[(&RunResult, String)], wording: &Wording) {
     html.push_str("<h2>Network and direct simulation</h2>\n<div class=\"diagrams\">\n");
     for (result, curves) in comparisons {
-        let (name, caption) = (escaped(&result.run.name), caption(result));
+        let (name, caption) = (escaped(&result.run.name), caption(result, wording));
         // Writing to a string cannot fail.
         let _ = writeln!(
             html,

@@ -206,13 +206,16 @@ tables! {
         pub measures: Vec<String>,
         /// The curves.
         pub curve: Vec<RawCurve>,
+        /// The maps; without one, a study of two axes with at least three numbers each, none of them a spacing, has maps of its curves, or of the first of
+        /// `measures`.
+        pub map: Vec<RawMap>,
         /// Shows picture and diagrams of each run (default true).
         pub pictures: bool,
     }
 
     /// A curve.
     pub(crate) struct RawCurve {
-        /// Title (default: names of y and x).
+        /// Title (default: words of y and x).
         pub title: String,
         /// Parameter or measure along x (required).
         pub x: String => Key::required("x = \"spacing\""),
@@ -229,6 +232,24 @@ tables! {
         pub x_scale: RawScale,
         /// Scale of y (default `linear`).
         pub y_scale: RawScale,
+    }
+
+    /// A measure over two parameters: a map for each combination of the others, of samples their mean.
+    pub(crate) struct RawMap {
+        /// Title (default: words of the measure and of x and y).
+        pub title: String,
+        /// Parameter along x (required).
+        pub x: String => Key::required("x = \"rate\""),
+        /// Parameter along y (required).
+        pub y: String => Key::required("y = \"angle\""),
+        /// Measure (required).
+        pub measure: String => Key::required("measure = \"trapped-saturation\""),
+        /// Scale of x (default `linear`).
+        pub x_scale: RawScale,
+        /// Scale of y (default `linear`).
+        pub y_scale: RawScale,
+        /// Scale of the colors (default `linear`).
+        pub scale: RawScale,
     }
 }
 

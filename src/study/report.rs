@@ -1,14 +1,15 @@
-//! The report of a study: tables, curves and the page, from the content of its folder.
+//! The report of a study: tables, curves, maps and the page, from the content of its folder.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::convergence::{self, Convergence};
-use super::curve::svg;
+use super::curve::{shades_axis, svg};
 use super::definition::Study;
 use super::ensemble::bands::{Figures, distribution};
 use super::ensemble::statistics::{FULL, SHORT, groups, statistics};
 use super::folder::StudyFolder;
+use super::map;
 use super::measured;
 use super::page::{Content, page};
 use super::page_of_samples::Uncertainty;
@@ -16,9 +17,11 @@ use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results};
 use super::run::PlannedRun;
 use super::table::{self, Table};
+use super::values::number_of;
 use super::verdict::{Judgment, judgments};
+use super::wording::Wording;
 use crate::run::compare::CURVES;
-use crate::run::pressure_curves;
+use crate::run::pressure_curves::{self, Overlaid};
 use meniscus_core::input::nearest;
 use meniscus_output::diagram::DiagramError;
 use meniscus_output::{FileError, atomic};
@@ -73,18 +76,30 @@ fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder
 }
 
 /// The capillary pressure curves of all complete runs, each named by the values in which runs differ; `None` if fewer than two have one.
-fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Result<Option<String>, ReportError> {
+fn pressures(
+    study: &Study,
+    results: &[RunResult],
+    folder: &StudyFolder,
+    wording: &Wording,
+) -> Result<Option<String>, ReportError> {
     let varies = |name: &str| results.iter().any(|result| result.run.value(name) != results[0].run.value(name));
     // One column identifies the value of an axis.
     let is_first = |name: &str| study.axes.iter().any(|axis| axis.columns.first().is_some_and(|one| one.name == name));
     let complete = results.iter().filter(|result| study.compare.is_none() && result.state.report().is_some());
-    let run =
-        |result: &RunResult| (result.run.values(|name| is_first(name) && varies(name)), folder.run(&result.run.name));
-    let runs: Vec<(String, PathBuf)> = complete.map(run).collect();
-    Ok(if runs.len() > 1 { pressure_curves::overlay(&runs)? } else { None })
+    let names: Vec<String> =
+        study.parameters().map(|column| column.name.clone()).filter(|name| is_first(name) && varies(name)).collect();
+    let run = |result: &RunResult| Overlaid {
+        name: result.run.plain_values(&names),
+        number: names.first().and_then(|name| result.run.value(name)).and_then(number_of).filter(|_| names.len() == 1),
+        folder: folder.run(&result.run.name),
+    };
+    let runs: Vec<Overlaid> = complete.map(run).collect();
+    let shades =
+        |numbers: &[f64]| shades_axis(&names.first().map(|name| wording.label(name)).unwrap_or_default(), numbers);
+    Ok(if runs.len() > 1 { pressure_curves::overlay(&runs, wording.labels(&names), &shades)? } else { None })
 }
 
-/// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
+/// Writes `table.csv`, `table.md`, `curve-1.svg`, `map-1.svg` and so on, and `report.html`.
 pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
     report_of(study, results(runs, folder), folder, &[])
 }
@@ -120,10 +135,11 @@ pub(crate) fn report_of(
     let judgments = judgments(study, &results);
     let convergences = convergence::all(study, &results);
     let resolution = Resolution::of(study, &results);
+    let wording = Wording::of(study, &results);
     let uncertainty = uncertainty(study, &results, folder, figures)?;
     let table = match &uncertainty {
         Some(uncertainty) => uncertainty.statistics.quantiles.clone(),
-        None => table::short(study, &results, &resolution),
+        None => table::short(study, &results, &resolution, &wording),
     };
     let path = |name: &str| folder.root().join(name);
     let csv = path(if uncertainty.is_some() { "samples.csv" } else { "table.csv" });
@@ -131,15 +147,22 @@ pub(crate) fn report_of(
     atomic::write(&path("table.md"), table.markdown().as_bytes())?;
     let mut curves = Vec::new();
     for (number, curve) in study.report.curves.iter().enumerate() {
-        if let Some(text) = svg(curve, &results)? {
+        if let Some(text) = svg(curve, &results, &wording)? {
             atomic::write(&path(&format!("curve-{}.svg", number + 1)), text.as_bytes())?;
             curves.push(text);
         }
     }
+    let mut maps = Vec::new();
+    for plan in map::plans(study) {
+        maps.extend(map::svgs(&plan, study, &results, &wording)?);
+    }
+    for (number, text) in maps.iter().enumerate() {
+        atomic::write(&path(&format!("map-{}.svg", number + 1)), text.as_bytes())?;
+    }
     let diagrams: Vec<Vec<String>> =
         results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.state)).collect();
     let comparisons = comparisons(study, &results, folder);
-    let pressures = pressures(study, &results, folder)?;
+    let pressures = pressures(study, &results, folder, &wording)?;
     if let Some(text) = &pressures {
         atomic::write(&path(&format!("{}.svg", pressure_curves::NAME)), text.as_bytes())?;
     }
@@ -151,6 +174,8 @@ pub(crate) fn report_of(
         results: &results,
         table: &table,
         curves: &curves,
+        maps: &maps,
+        wording: &wording,
         judgments: &judgments,
         convergences: &convergences,
         uncertainty: uncertainty.as_ref(),

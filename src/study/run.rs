@@ -84,6 +84,11 @@ impl Run {
         parameters.map(|one| format!("{} = {}", one.name, shown(&one.value))).collect::<Vec<_>>().join(", ")
     }
 
+    /// The values of some parameters alone, as text.
+    pub(crate) fn plain_values(&self, names: &[String]) -> String {
+        names.iter().filter_map(|name| self.value(name)).map(shown).collect::<Vec<_>>().join(", ")
+    }
+
     /// The values along all axes except that of the samples, as text.
     pub(crate) fn name_of_group(&self, study: &Study) -> String {
         self.values(|name| study.sampling.as_ref().is_none_or(|sampling| !sampling.has(name)))

@@ -5,6 +5,7 @@ use super::resolution::Resolution;
 use super::results::{RunResult, measures};
 use super::values::shown;
 use super::verdict::{digits, significant};
+use super::wording::Wording;
 use meniscus_output::FileError;
 use meniscus_output::html::escaped;
 
@@ -88,17 +89,13 @@ pub(crate) fn full(study: &Study, results: &[RunResult], resolution: &Resolution
     Table { heads, rows: results.iter().map(row).collect() }
 }
 
-/// The table for readers: four digits with the uncertainty, that due to the spacing included, units in the heads; measures that are not at rest are marked.
-pub(crate) fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
+/// The table for readers: four digits with the uncertainty, that due to the spacing included, words and units in the heads; measures that are not at rest are marked.
+pub(crate) fn short(study: &Study, results: &[RunResult], resolution: &Resolution, wording: &Wording) -> Table {
     let names = shown_measures(study, results);
-    let units = measures(results);
-    let mut heads: Vec<String> = study.parameters().map(|column| column.name.clone()).collect();
+    let head = |name: &String| wording.label(name).to_string();
+    let mut heads: Vec<String> = study.parameters().map(|column| head(&column.name)).collect();
     heads.push("status".to_owned());
-    heads.extend(names.iter().map(|name| match units.get(name).map(String::as_str) {
-        // Most names end in their unit.
-        Some(unit) if !unit.is_empty() && !name.ends_with(&format!("-{unit}")) => format!("{name} ({unit})"),
-        _ => name.clone(),
-    }));
+    heads.extend(names.iter().map(head));
     let uncertainty = |result: &RunResult, name: &str| {
         let both = [result.uncertainty(name), resolution.uncertainty(result, name)];
         both.into_iter().flatten().reduce(f64::hypot)
@@ -172,11 +169,11 @@ mod tests {
              dx=0.25,0.25,partial,,,,,\n"
         );
         assert_eq!(
-            short(&study, &results, &Resolution::of(&study, &results)).markdown(),
-            "| dx   | status  | m (deg)       | steps | wall-time-s | other |\n\
-             |------|---------|---------------|-------|-------------|-------|\n\
-             | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500       | –     |\n\
-             | 0.25 | partial | –             | –     | –           | –     |\n"
+            short(&study, &results, &Resolution::of(&study, &results), &Wording::of(&study, &results)).markdown(),
+            "| dx   | status  | m (degrees)   | steps | wall time (s) | other |\n\
+             |------|---------|---------------|-------|---------------|-------|\n\
+             | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500         | –     |\n\
+             | 0.25 | partial | –             | –     | –             | –     |\n"
         );
     }
 
@@ -189,7 +186,7 @@ mod tests {
         assert!(csv.starts_with("run,dx,status,m,m-uncertainty,m-not-at-rest\n"), "{csv}");
         let last: Vec<&str> = csv.lines().skip(1).map(|row| row.rsplit(',').next().unwrap()).collect();
         assert_eq!(last, ["", "-2.5", ""]);
-        let people = short(&study, &results, &Resolution::of(&study, &results));
+        let people = short(&study, &results, &Resolution::of(&study, &results), &Wording::of(&study, &results));
         let marked: Vec<bool> = people.rows.iter().map(|row| row[2].ends_with(", not at rest")).collect();
         assert_eq!(marked, [false, true, false]);
         assert_eq!(super::super::results::moving(&results, &shown_measures(&study, &results)), 1);
@@ -204,7 +201,8 @@ mod tests {
         let known: Vec<f64> = csv.lines().skip(1).map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
         assert!(csv.starts_with("run,dx,status,m,m-uncertainty,m-discretization-uncertainty\n"), "{csv}");
         assert!(known.iter().zip([2.5, 1.25, 0.625]).all(|(found, known)| (found - known).abs() < 1e-9), "{csv}");
-        let people = short(&study, &results, &Resolution::of(&study, &results)).markdown();
+        let people =
+            short(&study, &results, &Resolution::of(&study, &results), &Wording::of(&study, &results)).markdown();
         assert!(people.contains("± 2.5") && people.contains("± 0.63"), "{people}");
     }
 }

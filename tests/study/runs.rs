@@ -106,7 +106,7 @@ fn a_study_that_is_killed_five_times_ends_with_the_same_files_as_an_unbroken_one
     assert!((1..24).contains(&before), "{before} runs complete after five kills: nothing was tested");
     let output = run_study(folder.path(), "broken");
     assert_code(&output, 0);
-    for name in ["table.csv", "table.md", "curve-1.svg", "report.html"] {
+    for name in ["table.csv", "table.md", "curve-1.svg", "map-1.svg", "report.html"] {
         assert_eq!(read(&broken.join(name)), read(&folder.path().join("unbroken").join(name)), "{name}");
     }
     assert_eq!(read(&broken.join("table.csv")).lines().count(), 25);

@@ -47,16 +47,29 @@ pub struct Trace {
     pub points: Vec<[f64; 2]>,
 }
 
-/// A quantity as a function of both axes, drawn in color bands.
+/// A quantity as a function of both axes, drawn as colored cells with edges midway between positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
-    /// The quantity with its unit.
-    pub label: &'static str,
+    /// The quantity and the scale of its colors.
+    pub quantity: Axis,
     /// Ascending positions along x: the centers of columns.
     pub x: Vec<f64>,
     /// Ascending positions along y: the centers of rows.
     pub y: Vec<f64>,
-    /// Values, row by row.
+    /// Values, row by row; NaN where there is none.
+    pub values: Vec<f64>,
+    /// Range of the colors; that of the values if `None`.
+    pub range: Option<[f64; 2]>,
+    /// Indices in `values` of cells with a ring, and its name in the legend.
+    pub ringed: (&'static str, Vec<usize>),
+}
+
+/// A number by which lines are colored where names would be too many.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shades {
+    /// The quantity and the scale of its colors.
+    pub quantity: Axis,
+    /// Its value for each line of its own color, in their order.
     pub values: Vec<f64>,
 }
 
@@ -75,13 +88,51 @@ pub struct Diagram {
     pub map: Option<Map>,
     /// The lines.
     pub traces: Vec<Trace>,
+    /// What the names of the lines give, above them in the legend; empty if they are whole.
+    pub names_give: String,
+    /// The number by which the lines are colored, if not each by its own color.
+    pub shades: Option<Shades>,
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn linear(label: impl Into<Cow<'static, str>>) -> Self {
+        Self { label: label.into(), logarithmic: false }
+    }
+
+    /// Whether it can show a value.
+    pub fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (!self.logarithmic || value > 0.0)
+    }
+
+    /// A logarithmic axis.
+    pub fn logarithmic(label: impl Into<Cow<'static, str>>) -> Self {
+        Self { label: label.into(), logarithmic: true }
+    }
 }
 
 impl Diagram {
+    /// A diagram of lines.
+    pub fn new(name: &'static str, title: impl Into<Cow<'static, str>>, [x, y]: [Axis; 2], traces: Vec<Trace>) -> Self {
+        Self { name, title: title.into(), x, y, map: None, traces, names_give: String::new(), shades: None }
+    }
+
+    /// The same with lines colored by a number, one for each line of its own color, in place of their names where these would be too many.
+    #[must_use]
+    pub fn shaded_if_many(mut self, quantity: Axis, values: Vec<f64>) -> Self {
+        /// Most lines that are told apart by their colors.
+        const MOST: usize = 10;
+        if values.len() > MOST {
+            self.traces.iter_mut().for_each(|trace| trace.name.clear());
+            self.names_give.clear();
+            self.shades = Some(Shades { quantity, values });
+        }
+        self
+    }
+
     /// A diagram of lines with linear axes of these labels.
     pub fn linear(name: &'static str, title: &'static str, labels: [&'static str; 2], traces: Vec<Trace>) -> Self {
-        let [x, y] = labels.map(|label| Axis { label: label.into(), logarithmic: false });
-        Self { name, title: title.into(), x, y, map: None, traces }
+        Self::new(name, title, labels.map(Axis::linear), traces)
     }
 }
 

@@ -6,6 +6,7 @@
 
 pub mod diagram;
 pub mod input;
+pub mod label;
 pub mod math;
 pub mod snapshot;
 pub mod solver;

@@ -13,8 +13,8 @@ const FORGETTING: f64 = 1.0e-3;
 /// Number of points of the self-similar shape.
 const SIMILARITY_POINTS: i32 = 200;
 
-const POSITION: &str = "x in m";
-const TIME: &str = "time in s";
+const POSITION: &str = "x (m)";
+const TIME: &str = "time (s)";
 
 /// All diagrams for which there are data.
 pub(crate) fn all(observed: &ObservedFilm) -> Vec<Diagram> {
@@ -29,14 +29,6 @@ pub(crate) fn all(observed: &ObservedFilm) -> Vec<Diagram> {
     found.into_iter().flatten().collect()
 }
 
-fn linear(label: &'static str) -> Axis {
-    Axis { label: label.into(), logarithmic: false }
-}
-
-fn logarithmic(label: &'static str) -> Axis {
-    Axis { label: label.into(), logarithmic: true }
-}
-
 fn trace(name: impl Into<String>, stroke: Stroke, points: impl IntoIterator<Item = [f64; 2]>) -> Trace {
     Trace { name: name.into(), stroke, points: points.into_iter().collect() }
 }
@@ -45,15 +37,17 @@ fn trace(name: impl Into<String>, stroke: Stroke, points: impl IntoIterator<Item
 fn space_time(observed: &ObservedFilm) -> Diagram {
     let (scales, history) = (observed.surroundings.scales, &observed.history);
     let map = Map {
-        label: "height in m",
+        quantity: Axis::linear("height (m)"),
         x: observed.frame_positions().iter().map(|x| x * scales.length).collect(),
         y: history.frames.iter().map(|frame| frame.time * scales.time).collect(),
         values: history.frames.iter().flat_map(|frame| frame.heights.iter().map(|h| h * scales.height)).collect(),
+        range: None,
+        ringed: ("", Vec::new()),
     };
     let line = history.records.iter().map(|record| [record.position * scales.length, record.time * scales.time]);
     let traces = vec![trace("contact line", Stroke::Full, line)];
-    let title = "Height over position and time".into();
-    Diagram { name: "space-time", title, x: linear(POSITION), y: logarithmic(TIME), map: Some(map), traces }
+    let axes = [Axis::linear(POSITION), Axis::logarithmic(TIME)];
+    Diagram { map: Some(map), ..Diagram::new("space-time", "Height over position and time", axes, traces) }
 }
 
 /// Tanner's law through the last point.
@@ -75,8 +69,8 @@ fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
         traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
     }
     traces.push(trace("last particle", Stroke::Full, last));
-    let title = "Paths of particles right of the middle".into();
-    Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces })
+    let axes = [TIME, POSITION].map(Axis::logarithmic);
+    Some(Diagram::new("trajectories", "Paths of particles right of the middle", axes, traces))
 }
 
 fn contact_line(observed: &ObservedFilm) -> Diagram {
@@ -97,8 +91,7 @@ fn contact_line(observed: &ObservedFilm) -> Diagram {
         traces.push(trace("at rest", Stroke::Dashed, line.iter().map(|point| [point[0], at_rest])));
     }
     traces.push(trace("contact line", Stroke::Full, line));
-    let title = "The contact line over time".into();
-    Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(POSITION), map: None, traces }
+    Diagram::new("contact-line", "The contact line over time", [TIME, POSITION].map(Axis::logarithmic), traces)
 }
 
 /// Profiles in self-similar variables, in which they collapse, and the solution of the equation without regularization.
@@ -132,8 +125,8 @@ fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
     traces.push(trace("f''' = eta/(7 f^2)", Stroke::Dashed, eta.iter().zip(law).map(|(eta, f)| [*eta, f])));
     // Beyond the droplet there is only the wall.
     traces.iter_mut().for_each(|trace| trace.points.retain(|point| point[0] < 1.6 * end));
-    let (x, y) = (linear("eta = x t^(-1/7), scaled"), linear("t^(1/7) h, scaled"));
-    Some(Diagram { name: "similarity", title: "Profiles in similarity variables".into(), x, y, map: None, traces })
+    let labels = ["eta = x t^(-1/7), scaled", "t^(1/7) h, scaled"];
+    Some(Diagram::linear("similarity", "Profiles in similarity variables", labels, traces))
 }
 
 fn rest(observed: &ObservedFilm) -> Option<Diagram> {
@@ -148,8 +141,7 @@ fn rest(observed: &ObservedFilm) -> Option<Diagram> {
         trace("at the end", Stroke::Full, found.step_by(every)),
         trace("closed form", Stroke::Dashed, known.step_by(every)),
     ];
-    let (x, y) = (linear(POSITION), linear("height in m"));
-    Some(Diagram { name: "rest", title: "The droplet at rest".into(), x, y, map: None, traces })
+    Some(Diagram::linear("rest", "The droplet at rest", [POSITION, "height (m)"], traces))
 }
 
 fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
@@ -165,8 +157,8 @@ fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
         trace("found", Stroke::Dots, measured),
         trace(format!("{:.3} of the theory", factor / COX_VOINOV), Stroke::Dashed, fitted),
     ];
-    let (x, y) = (linear("9 Ca ln(x/d), scaled"), linear("cubed slope over that at rest"));
-    Some(Diagram { name: "cox-voinov", title: "The law of Cox and Voinov".into(), x, y, map: None, traces })
+    let labels = ["9 Ca ln(x/d), scaled", "cubed slope over that at rest"];
+    Some(Diagram::linear("cox-voinov", "The law of Cox and Voinov", labels, traces))
 }
 
 /// A number with two significant digits.

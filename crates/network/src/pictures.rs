@@ -56,9 +56,9 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
     let on_curve = cycles.record.curve.iter().map(|point| config.tension.unwrap_or(f64::NAN) * point.curvature.abs());
     let applied = cycles.history().iter().map(|entry| pressure_at(entry).abs()).chain(on_curve);
     let (label, unit) = if applied.fold(0.0, f64::max) > KILO {
-        ("capillary pressure p_n - p_w in kPa", 1.0e-3)
+        ("capillary pressure p_n - p_w (kPa)", 1.0e-3)
     } else {
-        ("capillary pressure p_n - p_w in Pa", 1.0)
+        ("capillary pressure p_n - p_w (Pa)", 1.0)
     };
     let mut traces: Vec<Trace> = Vec::new();
     for (index, outcome) in cycles.record.outcomes.iter().enumerate() {

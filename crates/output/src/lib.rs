@@ -7,17 +7,21 @@
 
 pub mod atomic;
 pub(crate) mod axes;
+pub(crate) mod cells;
 pub mod checksum;
 pub mod diagram;
 pub mod frames;
 pub mod html;
 pub mod journal;
+pub(crate) mod legend;
 pub mod movie;
 pub mod picture;
 pub mod pvd;
 pub mod restart;
 pub mod series;
+pub(crate) mod shade;
 pub mod table;
+pub(crate) mod ticks;
 pub mod vtk;
 
 pub use atomic::FileError;

@@ -110,7 +110,7 @@ fn quasi_static(comparison: &Comparison) -> Diagram {
 }
 
 fn in_time(comparison: &Comparison) -> Vec<Diagram> {
-    let (time, pressure) = ("time in s", "pressure at the inlet less that at the outlet in Pa");
+    let (time, pressure) = ("time (s)", "pressure at the inlet less that at the outlet (Pa)");
     let both = |points: &dyn Fn(&Side) -> Vec<[f64; 2]>| {
         vec![trace("network", points(&comparison.network)), trace("direct simulation", points(&comparison.direct))]
     };

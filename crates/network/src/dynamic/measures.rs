@@ -135,6 +135,6 @@ pub(crate) fn diagrams(model: &DynamicModel) -> Vec<Diagram> {
     let points =
         history.iter().filter(|event| event.pressure.is_finite()).map(|event| [event.saturation, event.pressure]);
     let traces = vec![Trace { name: "events".to_owned(), stroke: Stroke::Full, points: points.collect() }];
-    let labels = ["saturation of the invading phase", "pressure at the inlet less that at the outlet in Pa"];
+    let labels = ["saturation of the invading phase", "pressure at the inlet less that at the outlet (Pa)"];
     vec![Diagram::linear("pressure-difference", "Pressure difference at each event", labels, traces)]
 }

@@ -3,7 +3,8 @@
 use super::canvas::{Canvas, Picture, PictureError, Rgb};
 use super::style::{INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH};
 use super::view::{View, heading, scale_bar};
-use crate::axes::short;
+use crate::shade::color_at;
+use crate::ticks::short;
 use meniscus_core::diagram::{RegionMap, Tone, colors};
 use meniscus_core::math::{Bounds, Vec2};
 
@@ -11,18 +12,6 @@ use meniscus_core::math::{Bounds, Vec2};
 const FOOT: f32 = 190.0;
 /// Height of the color bar in pixels.
 const BAR: f32 = 26.0;
-
-/// The color at a fraction of the bar.
-fn color_at(bar: &[Rgb], fraction: f64) -> Rgb {
-    let position = fraction.clamp(0.0, 1.0) * (bar.len() - 1) as f64;
-    let below = (position.floor() as usize).min(bar.len() - 2);
-    let remainder = position - below as f64;
-    let mix = |i: usize| {
-        let (a, b) = (f64::from(bar[below][i]), f64::from(bar[below + 1][i]));
-        (a + remainder * (b - a)).round() as u8
-    };
-    [mix(0), mix(1), mix(2)]
-}
 
 /// The smallest visible width of a strip in pixels.
 const THINNEST: f32 = 2.0;
