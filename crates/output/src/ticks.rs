@@ -6,7 +6,7 @@ use std::ops::Range;
 const LABELS: std::ops::RangeInclusive<usize> = 4..=7;
 
 /// The ticks in a range of an axis.
-pub(super) fn ticks(range: &Range<f64>, logarithmic: bool) -> Vec<f64> {
+pub(crate) fn ticks(range: &Range<f64>, logarithmic: bool) -> Vec<f64> {
     if logarithmic { logarithmic_ticks(range) } else { linear_ticks(range) }
 }
 

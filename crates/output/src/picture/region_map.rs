@@ -4,7 +4,7 @@ use super::canvas::{Canvas, Picture, PictureError, Rgb};
 use super::style::{INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH};
 use super::view::{View, heading, scale_bar};
 use crate::shade::color_at;
-use crate::ticks::short;
+use crate::ticks::{short, ticks};
 use meniscus_core::diagram::{RegionMap, Tone, colors};
 use meniscus_core::math::{Bounds, Vec2};
 
@@ -140,8 +140,6 @@ fn lines(canvas: &mut Canvas, view: &View, map: &RegionMap) {
 }
 
 fn color_bar(canvas: &mut Canvas, region_map: &RegionMap, [low, high]: [f64; 2], top: f32) {
-    /// Numbers below the bar.
-    const NUMBERS: u32 = 5;
     let width = WIDTH as f32 - 2.0 * RIM;
     let label = format!("{}:", region_map.label);
     // Whole pixels: otherwise the background would show between columns.
@@ -152,13 +150,11 @@ fn color_bar(canvas: &mut Canvas, region_map: &RegionMap, [low, high]: [f64; 2],
         let fraction = f64::from(column) / f64::from(length);
         canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(region_map.bar, fraction));
     }
-    for number in 0..NUMBERS {
-        let fraction = f64::from(number) / f64::from(NUMBERS - 1);
-        let value = low + fraction * (high - low);
-        let text = short(format!("{value:.2e}").parse().unwrap_or(value));
+    for value in ticks(&(low..high), false) {
+        let (text, at) = (short(value), from + ((value - low) / (high - low)) as f32 * length);
         let wide = canvas.text_width(&text, TEXT_SIZE);
-        let x = (from + fraction as f32 * length - 0.5 * wide).min(RIM + width - wide);
-        canvas.text(&text, [x, top + BAR + 28.0], TEXT_SIZE);
+        canvas.rectangle([at.round() - 1.0, top + BAR], [2.0, 5.0], OUTLINE);
+        canvas.text(&text, [(at - 0.5 * wide).min(RIM + width - wide), top + BAR + 28.0], TEXT_SIZE);
     }
 }
 
