@@ -174,13 +174,14 @@ fn draw<'a>(
     canvas.fill(&WHITE)?;
     let (left, beside) = canvas.split_horizontally(width);
     legend.draw(&beside)?;
-    let mut area = left.split_vertically(height).0.margin(MARGIN, 0, 0, 0);
+    let mut area = left.split_vertically(height).0.margin(MARGIN / 2, 0, 0, 0);
     let letters = width as usize / text_width("x", layout.title as i32) as usize;
     for line in wrapped(&diagram.title, letters) {
         area = area.titled(&line, ("sans-serif", layout.title))?;
     }
     let mut chart = ChartBuilder::on(&area)
         .margin(MARGIN)
+        .margin_top(0)
         .x_label_area_size(X_LABELS)
         .y_label_area_size(Y_LABELS)
         .build_cartesian_2d(x, y)?;
