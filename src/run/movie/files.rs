@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::{MovieFailure, Subject};
+use super::failure::MovieFailure;
+use crate::run::setup;
+use meniscus_case::Case;
+use meniscus_core::diagram::Frame;
 use meniscus_core::snapshot::{Cloud, Lines, Snapshot};
 use meniscus_output::movie::Movie;
 use meniscus_output::picture::{Picture, Scene};
@@ -14,6 +17,20 @@ use meniscus_output::{FileError, pvd};
 
 /// The arrays that pictures show.
 const ARRAYS: [&str; 4] = ["phase", "below-resolution", "volume", "film-height"];
+
+/// What pictures need to know about a run.
+pub(super) struct Subject {
+    title: String,
+    frame: Option<Frame>,
+}
+
+impl Subject {
+    /// From the case, or of a run without a report from its folder.
+    pub(super) fn of(case: Option<&Case>, folder: &Path) -> Self {
+        let name = || folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Self { title: case.map_or_else(name, |case| case.title.clone()), frame: case.and_then(setup::frame) }
+    }
+}
 
 /// The files of one time.
 struct Files {

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
-use super::{MovieFailure, Written};
+use super::ended::Written;
+use super::failure::MovieFailure;
 use crate::run::records::Records;
 use crate::run::report::Status;
 use crate::run::schedule::Schedule;

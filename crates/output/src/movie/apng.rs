@@ -2,8 +2,9 @@
 
 use png::{BlendOp, ColorType, DisposeOp, Encoder};
 
+use super::error::MovieError;
+use super::frame::{CLEAR, Difference};
 use super::palette::Palette;
-use super::{Difference, MovieError};
 
 /// The file of `count` frames at `rate` pictures per second, which begins again at its end.
 pub(super) fn encoded(
@@ -20,8 +21,8 @@ pub(super) fn encoded(
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(ColorType::Indexed);
     encoder.set_palette(palette.bytes());
-    let mut alpha = vec![u8::MAX; usize::from(Palette::CLEAR) + 1];
-    alpha[usize::from(Palette::CLEAR)] = 0;
+    let mut alpha = vec![u8::MAX; usize::from(CLEAR) + 1];
+    alpha[usize::from(CLEAR)] = 0;
     encoder.set_trns(alpha);
     encoder.set_animated(count as u32, 0).map_err(failed)?;
     encoder.set_blend_op(BlendOp::Over).map_err(failed)?;

@@ -2,8 +2,9 @@
 
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 
+use super::error::MovieError;
+use super::frame::{CLEAR, Difference};
 use super::palette::Palette;
-use super::{Difference, MovieError};
 
 /// Units of time per second.
 const TICKS: f64 = 100.0;
@@ -31,7 +32,7 @@ pub(super) fn encoded(
         let written = encoder.write_frame(&Frame {
             delay,
             dispose: DisposalMethod::Keep,
-            transparent: Some(Palette::CLEAR),
+            transparent: Some(CLEAR),
             left,
             top,
             width,

@@ -4,9 +4,14 @@
 //! between them at smoothed edges is one of their neighbors. A frame is written as the rectangle in which it differs from the one before, transparent where it does not.
 
 mod apng;
+mod error;
+mod frame;
 mod gif;
 mod palette;
 
+pub use self::error::MovieError;
+
+use self::frame::{Difference, Run, difference};
 use self::palette::Palette;
 use super::picture::Picture;
 
@@ -19,48 +24,12 @@ pub enum Format {
     Apng,
 }
 
-/// A movie that cannot be made.
-#[derive(Debug, thiserror::Error)]
-pub enum MovieError {
-    /// No frames.
-    #[error("there is no frame")]
-    Empty,
-    /// A frame of another size.
-    #[error("a frame of {found:?} pixels follows one of {expected:?}")]
-    Size {
-        /// Width and height of the first frames.
-        expected: [u32; 2],
-        /// Those of the frame.
-        found: [u32; 2],
-    },
-    /// The encoder failed.
-    #[error("the movie cannot be encoded: {0}")]
-    Encode(String),
-}
-
-/// A color as red, green, blue.
-type Rgb = [u8; 3];
-
-/// Pixels of one color, row by row, and their number.
-type Run = (Rgb, u32);
-
 /// The frames of a movie.
 #[derive(Debug, Default)]
 pub struct Movie {
     size: [u32; 2],
     /// Runs of each frame with the number of times that it is shown.
     frames: Vec<(Vec<Run>, u32)>,
-}
-
-/// A frame as it is written.
-struct Difference {
-    /// Left, top, width and height of the rectangle that changes.
-    corner: [u32; 2],
-    size: [u32; 2],
-    /// Indices of its colors, [`Palette::CLEAR`] where nothing changes.
-    indices: Vec<u8>,
-    /// How long the frame is shown, in units of the duration of a picture.
-    shown: u32,
 }
 
 impl Movie {
@@ -115,32 +84,9 @@ impl Movie {
     }
 }
 
-/// What differs from the frame before.
-fn difference([width, height]: [u32; 2], before: Option<&[u8]>, now: &[u8], shown: u32) -> Difference {
-    let Some(before) = before else {
-        return Difference { corner: [0, 0], size: [width, height], indices: now.to_vec(), shown };
-    };
-    let wide = width as usize;
-    let mut ends = [[wide, 0], [height as usize, 0]];
-    for (at, _) in before.iter().zip(now).enumerate().filter(|(_, (before, now))| before != now) {
-        for (end, position) in ends.iter_mut().zip([at % wide, at / wide]) {
-            *end = [end[0].min(position), end[1].max(position + 1)];
-        }
-    }
-    // Colors that differ in the picture may be one in the palette: then one pixel is written again.
-    let [[left, right], [top, bottom]] = if ends[0][0] < ends[0][1] { ends } else { [[0, 1], [0, 1]] };
-    let pixels = (top..bottom).flat_map(|row| (left..right).map(move |column| row * wide + column));
-    let indices = pixels.map(|at| if before[at] == now[at] { Palette::CLEAR } else { now[at] }).collect();
-    Difference {
-        corner: [left as u32, top as u32],
-        size: [(right - left) as u32, (bottom - top) as u32],
-        indices,
-        shown,
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::frame::Rgb;
     use super::*;
 
     const SIZE: [u32; 2] = [8, 4];

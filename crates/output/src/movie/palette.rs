@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Rgb, Run};
+use super::frame::{CLEAR, Rgb, Run};
 
 /// Up to 255 colors, and which of them each color of the frames becomes.
 pub(super) struct Palette {
@@ -11,9 +11,7 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// The index of no color: what was there before stays.
-    pub(super) const CLEAR: u8 = 255;
-    /// Number of colors beside it.
+    /// Number of colors beside [`CLEAR`].
     const MOST: usize = 255;
 
     /// The palette of these runs: one after the other the color that those before represent worst.
@@ -29,10 +27,10 @@ impl Palette {
     }
 
     pub(super) fn index(&self, color: Rgb) -> u8 {
-        self.indices.get(&color).copied().unwrap_or(Self::CLEAR)
+        self.indices.get(&color).copied().unwrap_or(CLEAR)
     }
 
-    /// Red, green and blue of all indices, that of [`CLEAR`](Self::CLEAR) included.
+    /// Red, green and blue of all indices, that of [`CLEAR`] included.
     pub(super) fn bytes(&self) -> Vec<u8> {
         let mut bytes = self.colors.as_flattened().to_vec();
         bytes.resize(3 * (Self::MOST + 1), 0);
@@ -59,7 +57,7 @@ fn chosen(sorted: &[(Rgb, u64)]) -> Vec<Rgb> {
 
 fn nearest(colors: &[Rgb], color: Rgb) -> u8 {
     let found = (0..).zip(colors).min_by_key(|(_, other)| distance(color, **other));
-    found.map_or(Palette::CLEAR, |(index, _)| index)
+    found.map_or(CLEAR, |(index, _)| index)
 }
 
 /// Squared distance.

@@ -5,8 +5,9 @@ use meniscus_core::snapshot::Lines;
 
 /// Length of the bent end in particle spacings: the reach of the smoothing.
 const BENT: f64 = 2.0;
-/// Length in spacings along which the curve is fitted.
+/// Length in spacings along which the curve is fitted; half of it must be there, and this number of vertices.
 const FITTED: f64 = 4.0;
+const LEAST: usize = 4;
 /// Most that the curve is continued, in spacings, and the length of its segments.
 const REACH: f64 = 4.0;
 const STEP: f64 = 0.1;
@@ -15,42 +16,44 @@ const AT_WALL: f64 = 0.5;
 
 /// A line with its ends at walls replaced by the continuation of what is farther away; `spacing` in m.
 pub(super) fn to_walls(line: &[Vec2], outline: &Lines<'_>, spacing: f64) -> Vec<Vec2> {
+    let turned = |line: &[Vec2]| line.iter().rev().copied().collect::<Vec<_>>();
     let is_closed = line.first() == line.last();
-    let length: f64 = line.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-    // Both ends must leave something of the line.
-    if is_closed || !(length > 2.0 * (BENT + FITTED) * spacing) {
+    let (last, first) = (before_end(line, BENT * spacing), line.len() - before_end(&turned(line), BENT * spacing));
+    if is_closed || first + LEAST > last || length(&line[first..last]) < 0.5 * FITTED * spacing {
         return line.to_vec();
     }
-    let mut turned = line.to_vec();
-    for _ in 0..2 {
-        turned = with_last_end(turned, outline, spacing);
-        turned.reverse();
-    }
-    turned
+    let between = &line[first..last];
+    let continued = |inner: &[Vec2], end: &[Vec2]| {
+        let found = end.last().and_then(|&end| continuation(inner, end, outline, spacing));
+        found.unwrap_or_else(|| end.to_vec())
+    };
+    let (start, end) = (turned(&line[..first]), &line[last..]);
+    let start = continued(&turned(between), &start);
+    [turned(&start), between.to_vec(), continued(between, end)].concat()
 }
 
-/// The same at the last vertex only.
-fn with_last_end(line: Vec<Vec2>, outline: &Lines<'_>, spacing: f64) -> Vec<Vec2> {
-    let Some(&end) = line.last() else { return line };
+fn length(line: &[Vec2]) -> f64 {
+    line.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// The vertices that continue a line to the wall on which `end` lies; `None` if it lies on none, or if the line does not come near it.
+fn continuation(line: &[Vec2], end: Vec2, outline: &Lines<'_>, spacing: f64) -> Option<Vec<Vec2>> {
     let walls = walls_within((BENT + REACH) * spacing, end, outline);
     if !walls.iter().any(|wall| distance(end, *wall) < AT_WALL * spacing) {
-        return line;
+        return None;
     }
-    let kept = before_end(&line, BENT * spacing);
-    let Some(curve) = Parabola::fit(&line[..kept], FITTED * spacing) else { return line };
+    let curve = Parabola::fit(line, FITTED * spacing)?;
     let steps = (BENT + REACH) / STEP;
     let mut added: Vec<Vec2> = Vec::new();
     for k in 0..steps as u32 {
         let [from, to] = [k, k + 1].map(|k| curve.at(f64::from(k) * STEP * spacing));
         if let Some(contact) = walls.iter().find_map(|wall| crossing([from, to], *wall)) {
             added.push(contact);
-            // A curve that ends elsewhere is no continuation.
-            let is_near = (contact - end).norm() < REACH * spacing;
-            return if is_near { line[..kept].iter().copied().chain(added).collect() } else { line };
+            return ((contact - end).norm() < REACH * spacing).then_some(added);
         }
         added.push(to);
     }
-    line
+    None
 }
 
 /// Number of vertices up to an arc length before the last one.
@@ -149,10 +152,24 @@ mod tests {
     }
 
     #[test]
+    fn a_meniscus_in_a_throat_of_eight_spacings_is_straightened_at_both_ends() {
+        let points = [-10.0, 10.0].into_iter().flat_map(|x| [Vec2::new(x, 0.0), Vec2::new(x, 8.0)]);
+        let mut walls = Lines { points: points.collect(), lines: vec![vec![0, 2], vec![1, 3]], fields: Vec::new() };
+        walls.lines.push(vec![0, 1]);
+        let bend = |y: f64| 0.2 * (1.5 - y).max(0.0) + 0.2 * (y - 6.5).max(0.0);
+        let line: Vec<Vec2> = (0..=16).map(|k| 0.5 * f64::from(k)).map(|y| Vec2::new(bend(y), y)).collect();
+        let found = to_walls(&line, &walls, 1.0);
+        assert!(found.iter().all(|x| x.x.abs() < 1e-12), "{found:?}");
+        assert_eq!([found[0].y, found[found.len() - 1].y], [0.0, 8.0]);
+    }
+
+    #[test]
     fn lines_without_a_wall_closed_ones_and_short_ones_stay() {
         let drop = bent_drop();
         assert_eq!(to_walls(&drop, &Lines::default(), 1.0), drop);
         assert_eq!(to_walls(&drop, &floor(), 5.0), drop);
+        assert_eq!(to_walls(&drop[..1], &floor(), 1.0), drop[..1]);
+        assert!(to_walls(&[], &floor(), 1.0).is_empty());
         let closed: Vec<Vec2> = drop.iter().copied().chain([drop[0]]).collect();
         assert_eq!(to_walls(&closed, &floor(), 1.0), closed);
     }
