@@ -13,13 +13,14 @@ use crate::import::options::Options;
 use crate::import::svg;
 #[cfg(feature = "wkt")]
 use crate::import::wkt;
-use crate::import::{dxf, esri, list};
+use crate::import::{dxf, esri, list, network};
 use meniscus_core::input::file;
 
 /// Reads the bytes of a file; `path` is the location of accompanying files.
 pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
     match format {
         Format::List => list::read(text(bytes)?, options),
+        Format::Network => network::read(text(bytes)?, path),
         #[cfg(feature = "wkt")]
         Format::Wkt => wkt::read(text(bytes)?),
         #[cfg(feature = "geojson")]
@@ -46,7 +47,7 @@ fn one(found: &str, expected: &str) -> Vec<Refusal> {
 }
 
 /// The UTF-8 text of a file, without byte order mark.
-fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
+pub(crate) fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
         Err(_) => {
