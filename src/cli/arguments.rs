@@ -99,7 +99,7 @@ pub(crate) struct CheckArguments {
 /// `geometry`.
 #[derive(Debug, Args)]
 pub(crate) struct GeometryArguments {
-    /// Shape file (TOML, list of discs, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF), or a case file, whose geometry is
+    /// Shape file (TOML, list of discs, network of OpenPNM, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF), or a case file, whose geometry is
     /// measured with the sides of the case
     pub(crate) file: PathBuf,
     #[command(flatten)]

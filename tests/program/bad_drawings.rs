@@ -1,6 +1,6 @@
 //! Bad shape files of other programs: `tests/bad-input/drawings.table`, snippets split by `+++` lines. The first line of each is the name
 //! of the file and the options that it is read with, the next ones its text with `\xff` for a byte, and those that begin with `#!` the
-//! mistakes, `message; way out`. `MENISCUS_BLESS=1 cargo test --test program bad_drawings` writes the mistakes anew: read them.
+//! mistakes, `message; way out`. A line `=== NAME` begins a file beside the first. `MENISCUS_BLESS=1 cargo test --test program bad_drawings` writes the mistakes anew: read them.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -31,13 +31,27 @@ fn options(words: &str) -> Options {
     options
 }
 
+/// The files of a snippet, each with its lines: a line `=== NAME` begins another one, which lies beside the first.
+fn files<'t>(first: &'t str, lines: &'t [&'t str]) -> Vec<(&'t str, Vec<&'t str>)> {
+    let mut all = vec![(first, Vec::new())];
+    for line in lines {
+        match line.strip_prefix("=== ") {
+            Some(name) => all.push((name, Vec::new())),
+            None => all.last_mut().unwrap().1.push(*line),
+        }
+    }
+    all
+}
+
 /// The snippet with the mistakes that it gives.
 fn with_mistakes(snippet: &str) -> String {
     let own: Vec<&str> = snippet.lines().filter(|line| !line.starts_with("#!")).collect();
     let (name, words) = own[0].split_once(' ').unwrap_or((own[0], ""));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
-    std::fs::write(&path, bytes(&own[1..].join("\n"))).unwrap();
+    for (name, lines) in files(name, &own[1..]) {
+        std::fs::write(folder.path().join(name), bytes(&lines.join("\n"))).unwrap();
+    }
     let mistakes = load_shapes(&path, &options(words)).err().map_or(Vec::new(), |error| error.mistakes);
     let inside = format!("{}/", folder.path().display());
     let mut written = own.join("\n") + "\n";

@@ -1,4 +1,4 @@
-//! Shape files of other programs: lists of discs, well-known text, GeoJSON, shapefiles, SVG, DXF, masks.
+//! Shape files of other programs: lists of discs, tables of networks, well-known text, GeoJSON, shapefiles, SVG, DXF, masks.
 //!
 //! Our own TOML shape files are read by the case module, which keeps source locations in TOML.
 
@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use crate::import::build::{Imported, Refused};
 use crate::import::format::Format;
+use crate::import::network;
 use crate::import::options::Options;
-use crate::import::read::read;
+use crate::import::read::{format_of, read};
 use crate::import::reading::build;
 use meniscus_core::input::file;
 
@@ -55,14 +56,17 @@ pub fn load(path: &Path, options: &Options) -> Result<Imported, ShapeFileError> 
         Some(format) => format,
         None => return Err(ShapeFileError::Ending { path }),
     };
-    let problems = options.problems(format);
-    if !problems.is_empty() {
-        return Err(ShapeFileError::Refused { path, refused: Refused::Keys(problems) });
-    }
     let bytes = match file::read(&path, file::LARGEST) {
         Ok(bytes) => bytes,
         Err(source) => return Err(ShapeFileError::Read { path, source }),
     };
+    let format = format_of(&bytes, format, options);
+    let problems = options.problems(format);
+    if !problems.is_empty() {
+        return Err(ShapeFileError::Refused { path, refused: Refused::Keys(problems) });
+    }
+    let of_network = (format == Format::Network).then(|| network::options(options));
+    let options = of_network.as_ref().unwrap_or(options);
     let drawing = read(&bytes, &path, format, options).map_err(Refused::Parts);
     let shapes = drawing.and_then(|drawing| build(drawing, format, options));
     shapes.map_err(|refused| ShapeFileError::Refused { path, refused })

@@ -16,6 +16,7 @@ use meniscus_core::table::{Column, Table};
 struct Connection<'a> {
     ends: [usize; 2],
     throat: Option<&'a Throat>,
+    middle: Vec2,
     width: f64,
     length: f64,
     conductance: f64,
@@ -30,6 +31,7 @@ fn connections(model: &Model) -> Vec<Connection<'_>> {
         (a != b).then(|| Connection {
             ends: [a.min(b), a.max(b)],
             throat: Some(throat),
+            middle: throat.middle(),
             width: throat.width,
             length: length(config, throat),
             conductance: conductances[index],
@@ -41,6 +43,7 @@ fn connections(model: &Model) -> Vec<Connection<'_>> {
     let openings = openings.map(|(index, ((opening, pore), conductance))| Connection {
         ends: [pore, pores + index],
         throat: None,
+        middle: middle(opening),
         width: width(opening),
         length: (center(config, pore) - middle(opening)).norm(),
         conductance,
@@ -119,6 +122,10 @@ fn throat_columns(model: &Model) -> Vec<Column> {
     let mut columns = vec![
         end("throat.conns[0]", 0),
         end("throat.conns[1]", 1),
+        // The name that PoreSpy gives the place of a throat.
+        column("throat.global_peak[0]", &|it| it.middle.x),
+        column("throat.global_peak[1]", &|it| it.middle.y),
+        column("throat.global_peak[2]", &|_| 0.0),
         column("throat.diameter", &|it| it.width),
         column("throat.inscribed_diameter", &|it| it.width),
         column("throat.equivalent_diameter", &|it| it.width),

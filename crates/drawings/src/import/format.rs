@@ -9,6 +9,8 @@ pub enum Format {
     Toml,
     /// Lists of discs.
     List,
+    /// Tables of pores and throats.
+    Network,
     /// Well-known text.
     Wkt,
     GeoJson,
@@ -26,6 +28,8 @@ pub enum Format {
 const FORMATS: &[(Format, &str, &[&str])] = &[
     (Format::Toml, "a TOML shape file", &["toml"]),
     (Format::List, "a list of discs", &["xyr", "discs", "txt", "csv"]),
+    // Told from a list of discs by its header.
+    (Format::Network, "a network", &[]),
     (Format::Wkt, "well-known text", &["wkt"]),
     (Format::GeoJson, "GeoJSON", &["geojson", "json"]),
     (Format::Shapefile, "a shapefile without .prj", &["shp"]),

@@ -24,6 +24,7 @@ pub(crate) mod list;
 #[cfg(feature = "masks")]
 pub mod mask;
 pub(crate) mod nest;
+pub(crate) mod network;
 pub(crate) mod nodes;
 pub(crate) mod notes;
 pub mod options;

@@ -10,6 +10,7 @@ mod import;
 mod invariance;
 mod kinds;
 mod masks;
+mod networks;
 mod noise;
 mod round_trip;
 mod shape_files;

@@ -50,6 +50,7 @@ macro_rules! survive {
 survive! {
     damaged_lists_are_read_or_refused: "pack.xyr", Options::default();
     damaged_columns_are_read_or_refused: "pack-columns.csv", columns();
+    damaged_networks_are_read_or_refused: "network-openpnm.csv", Options::default();
     damaged_well_known_text_is_read_or_refused: "grains.wkt", unit("mm");
     damaged_geojson_is_read_or_refused: "grains.geojson", unit("mm");
     damaged_shapefiles_are_read_or_refused: "grains.shp", unit("mm");

@@ -15,6 +15,7 @@ mod support {
 }
 
 mod arrays;
+mod ball_and_stick;
 mod cases;
 mod channels;
 mod corners;
