@@ -8,7 +8,7 @@ use crate::import::build::{Imported, Refused};
 use crate::import::format::Format;
 use crate::import::network;
 use crate::import::options::Options;
-use crate::import::read::read;
+use crate::import::read::{format_of, read};
 use crate::import::reading::build;
 use meniscus_core::input::file;
 
@@ -60,7 +60,7 @@ pub fn load(path: &Path, options: &Options) -> Result<Imported, ShapeFileError> 
         Ok(bytes) => bytes,
         Err(source) => return Err(ShapeFileError::Read { path, source }),
     };
-    let format = format.of_content(&bytes, options);
+    let format = format_of(&bytes, format, options);
     let problems = options.problems(format);
     if !problems.is_empty() {
         return Err(ShapeFileError::Refused { path, refused: Refused::Keys(problems) });

@@ -2,9 +2,6 @@
 
 use std::path::Path;
 
-use crate::import::network;
-use crate::import::options::Options;
-
 /// A format of shape files of other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -27,9 +24,6 @@ pub enum Format {
     Mask,
 }
 
-/// Most bytes that are searched for the header of a table.
-const LONGEST_HEADER: usize = 1 << 20;
-
 /// Each format: its name in messages, and its file extensions.
 const FORMATS: &[(Format, &str, &[&str])] = &[
     (Format::Toml, "a TOML shape file", &["toml"]),
@@ -49,16 +43,6 @@ impl Format {
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         FORMATS.iter().find(|known| known.2.contains(&ending.as_str())).map(|known| known.0)
-    }
-
-    /// The format of a file of this format by its extension, by its content: the header of a table tells a network from a list of discs.
-    pub(crate) fn of_content(self, bytes: &[u8], options: &Options) -> Self {
-        let is_list = options.columns.is_some() || options.separator.is_some() || options.diameters.is_some();
-        let is_network = || {
-            let start = &bytes[..bytes.len().min(LONGEST_HEADER)];
-            network::is_one(String::from_utf8_lossy(start).trim_start_matches('\u{feff}'))
-        };
-        if self == Self::List && !is_list && is_network() { Self::Network } else { self }
     }
 
     /// The file extensions of all formats.

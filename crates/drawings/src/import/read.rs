@@ -11,20 +11,34 @@ use crate::import::mask;
 use crate::import::options::Options;
 #[cfg(feature = "svg")]
 use crate::import::svg;
+use crate::import::text::utf8;
 #[cfg(feature = "wkt")]
 use crate::import::wkt;
 use crate::import::{dxf, esri, list, network};
 use meniscus_core::input::file;
 
+/// Most bytes that are searched for the header of a table.
+const LONGEST_HEADER: usize = 1 << 20;
+
+/// The format of a file that its extension gives a format, by its content: the header of a table tells a network from a list of discs.
+pub(crate) fn format_of(bytes: &[u8], by_extension: Format, options: &Options) -> Format {
+    let is_list = options.columns.is_some() || options.separator.is_some() || options.diameters.is_some();
+    let is_network = || {
+        let start = &bytes[..bytes.len().min(LONGEST_HEADER)];
+        network::is_one(String::from_utf8_lossy(start).trim_start_matches('\u{feff}'))
+    };
+    if by_extension == Format::List && !is_list && is_network() { Format::Network } else { by_extension }
+}
+
 /// Reads the bytes of a file; `path` is the location of accompanying files.
 pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
     match format {
-        Format::List => list::read(text(bytes)?, options),
-        Format::Network => network::read(text(bytes)?, path),
+        Format::List => list::read(utf8(bytes)?, options),
+        Format::Network => network::read(utf8(bytes)?, path),
         #[cfg(feature = "wkt")]
-        Format::Wkt => wkt::read(text(bytes)?),
+        Format::Wkt => wkt::read(utf8(bytes)?),
         #[cfg(feature = "geojson")]
-        Format::GeoJson => geojson::read(text(bytes)?),
+        Format::GeoJson => geojson::read(utf8(bytes)?),
         Format::Shapefile => {
             // A projection that is not text is damaged; its reader reports that.
             let projection = file::read(&path.with_extension("prj"), file::LARGEST_TEXT).ok();
@@ -33,7 +47,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         // Read by the case reader, which keeps source locations in TOML.
         Format::Toml => Err(one("a TOML shape file", "a drawing")),
         #[cfg(feature = "svg")]
-        Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
+        Format::Svg => svg::read(utf8(bytes)?, options.layers.as_deref()),
         Format::Dxf => dxf::read(bytes, options.layers.as_deref(), options.join_within),
         #[cfg(feature = "masks")]
         Format::Mask => mask::read(bytes, options),
@@ -44,19 +58,4 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
 
 fn one(found: &str, expected: &str) -> Vec<Refusal> {
     vec![Refusal { location: "file".into(), found: found.into(), expected: expected.into() }]
-}
-
-/// The UTF-8 text of a file, without byte order mark.
-pub(crate) fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
-        Err(_) => {
-            let location = file::not_text(bytes).unwrap_or_default();
-            Err(vec![Refusal::new(
-                location,
-                "invalid UTF-8",
-                "text in UTF-8: save the file as such; is it the right file?",
-            )])
-        }
-    }
 }

@@ -3,6 +3,7 @@
 //! Comment lines begin with `#`; `# domain xmin ymin xmax ymax` (in the unit of the file) sets the domain.
 
 use crate::import::drawing::Refusal;
+use meniscus_core::input::file;
 use meniscus_core::math::{Bounds, Vec2};
 
 /// Content of a text file besides the shapes.
@@ -54,5 +55,20 @@ pub(crate) fn quoted(text: &str) -> String {
         format!("`{text}`")
     } else {
         format!("`{}...`", text.chars().take(LONGEST).collect::<String>())
+    }
+}
+
+/// The UTF-8 text of a file, without byte order mark.
+pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
+        Err(_) => {
+            let location = file::not_text(bytes).unwrap_or_default();
+            Err(vec![Refusal::new(
+                location,
+                "invalid UTF-8",
+                "text in UTF-8: save the file as such; is it the right file?",
+            )])
+        }
     }
 }

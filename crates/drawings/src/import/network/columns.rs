@@ -36,7 +36,7 @@ pub(super) const OPENPNM: Columns = Columns {
     width: &["throat.inscribed_diameter", "throat.diameter"],
     middle: ["throat.global_peak[0]", "throat.global_peak[1]", "throat.global_peak[2]"],
     length: &["throat.total_length", "throat.spacing"],
-    remedy: "in Python: set it in the network, then `openpnm.io.network_to_csv`",
+    remedy: "set it in the network and write that with `openpnm.io.network_to_csv`",
 };
 
 /// `pores.csv` and `throats.csv`.

@@ -61,9 +61,9 @@ impl Openings {
         let mut domain = around.grown(MARGIN * around.size().max());
         for side in 0..4 {
             let all = boundary.iter().filter(|it| it.2 == side).map(|it| network.pores[it.1].center[side / 2]);
-            let outermost = if side % 2 == 0 { all.reduce(f64::min) } else { all.reduce(f64::max) };
+            let outermost = if side.is_multiple_of(2) { all.reduce(f64::min) } else { all.reduce(f64::max) };
             if let Some(at) = outermost {
-                let corner = if side % 2 == 0 { &mut domain.min } else { &mut domain.max };
+                let corner = if side.is_multiple_of(2) { &mut domain.min } else { &mut domain.max };
                 corner[side / 2] = at;
             }
         }
@@ -152,7 +152,7 @@ fn outline(pore: &Pore, ends: [Option<Vec2>; 4]) -> Outline {
 /// Distance of a point from a side of a box.
 fn distance(x: Vec2, within: Bounds, side: usize) -> f64 {
     let axis = side / 2;
-    if side % 2 == 0 { x[axis] - within.min[axis] } else { within.max[axis] - x[axis] }
+    if side.is_multiple_of(2) { x[axis] - within.min[axis] } else { within.max[axis] - x[axis] }
 }
 
 fn nearest(x: Vec2, within: Bounds) -> usize {
@@ -171,11 +171,12 @@ fn to_side(network: &Network, [pore, labeled]: [usize; 2], half: f64, side: usiz
     let axis = side / 2;
     let pore = &network.pores[pore];
     let mut from = pore.center;
-    let reach = (pore.radius - half).max(0.0);
+    // A wall that touches the disc in a tangent would not end.
+    let reach = (pore.radius * (1.0 - AS_WIDE) - half).max(0.0);
     let along = network.pores[labeled].center[1 - axis];
     from[1 - axis] = along.clamp(from[1 - axis] - reach, from[1 - axis] + reach);
-    let outward = if side % 2 == 0 { -1.0 } else { 1.0 };
-    let at = if side % 2 == 0 { domain.min[axis] } else { domain.max[axis] };
+    let outward = if side.is_multiple_of(2) { -1.0 } else { 1.0 };
+    let at = if side.is_multiple_of(2) { domain.min[axis] } else { domain.max[axis] };
     let mut to = from;
     // Beyond the side by at least its width, also from a pore whose center lies on it.
     to[axis] = outward * (outward * at).max(outward * from[axis]) + outward * 2.0 * half;

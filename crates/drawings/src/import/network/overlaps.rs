@@ -87,7 +87,7 @@ pub(super) fn note(network: &Network, throats: &[(usize, Channel)], openings: &O
     let named: Vec<String> = found.iter().take(NAMED).map(|[a, b]| format!("{a} and {b}")).collect();
     let more = if found.len() > NAMED { ", ..." } else { "" };
     Some(format!(
-        "overlaps ({}) join what the network keeps apart, or widen a throat: {}{more}; numbers from 0, as in the file",
+        "overlaps ({}) that the network does not have, where other pores and throats may result: {}{more}; numbers from 0, as in the file",
         found.len(),
         named.join(", ")
     ))

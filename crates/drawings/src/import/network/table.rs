@@ -71,7 +71,7 @@ impl Table {
         self.first_of(names).ok_or_else(|| {
             let named: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
             let found = format!("no column {}", named.join(" or "));
-            Refusal::new(format!("{}line {}", self.file, self.header_line), found, format!("{what}: {remedy}"))
+            Refusal::new(format!("{}line {}", self.file, self.header_line), found, format!("{what}; {remedy}"))
         })
     }
 
@@ -82,7 +82,7 @@ impl Table {
 
     /// The place of a row.
     pub(super) fn line(&self, row: usize) -> String {
-        format!("{}line {}", self.file, self.rows.get(row).map_or(0, line_of))
+        format!("{}line {}", self.file, self.rows.get(row).map_or(self.header_line, line_of))
     }
 
     /// The refusal of a cell.

@@ -7,6 +7,7 @@ use crate::import::drawing::Refusal;
 use crate::import::network::columns::{Columns, Label, OPENPNM, PAIR, label};
 use crate::import::network::model::{Network, Pore, Throat};
 use crate::import::network::table::Table;
+use crate::import::text::utf8;
 use meniscus_core::input::file;
 use meniscus_core::math::Vec2;
 
@@ -47,8 +48,11 @@ fn beside(path: &Path, which: usize) -> Result<(String, String), Refusal> {
             format!("a table of {} in the same folder, by the name of {name}", NAMES[1 - which]),
         )
     };
-    let bytes = file::read(&path.with_file_name(&name), file::LARGEST).map_err(|error| refusal(format!("{error}")))?;
-    let text = crate::import::read::text(&bytes).map_err(|_| refusal(format!("{name}, which is not text in UTF-8")))?;
+    let bytes = file::read(&path.with_file_name(&name), file::LARGEST).map_err(|error| {
+        let is_absent = error.kind() == std::io::ErrorKind::NotFound;
+        refusal(if is_absent { format!("no {name}") } else { format!("{name}, which cannot be read ({error})") })
+    })?;
+    let text = utf8(&bytes).map_err(|_| refusal(format!("{name}, which is not text in UTF-8")))?;
     Ok((name.clone(), text.to_owned()))
 }
 
@@ -114,8 +118,7 @@ fn pores_of(table: &Table, columns: &Columns, bad: &mut Vec<Refusal>) -> Option<
             is_opening: false,
             location: table.line(row),
         };
-        for &(column, label) in labels.iter().filter(|(column, _)| table.is_set(row, *column)) {
-            let _ = column;
+        for &(_, label) in labels.iter().filter(|(column, _)| table.is_set(row, *column)) {
             match label {
                 Label::Side(side) => pore.at_side[side] = true,
                 Label::End(end) => pore.at_end[end] = true,
