@@ -171,7 +171,8 @@ fn to_side(network: &Network, [pore, labeled]: [usize; 2], half: f64, side: usiz
     let axis = side / 2;
     let pore = &network.pores[pore];
     let mut from = pore.center;
-    let reach = (pore.radius - half).max(0.0);
+    // A wall that touches the disc in a tangent would not end.
+    let reach = (pore.radius * (1.0 - AS_WIDE) - half).max(0.0);
     let along = network.pores[labeled].center[1 - axis];
     from[1 - axis] = along.clamp(from[1 - axis] - reach, from[1 - axis] + reach);
     let outward = if side.is_multiple_of(2) { -1.0 } else { 1.0 };
