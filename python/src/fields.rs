@@ -139,7 +139,7 @@ fn diagram(diagram: &Diagram) -> Data {
     });
     let map = diagram.map.as_ref().map_or(Data::Absent, |map| {
         Data::group([
-            ("label", Data::text(map.label)),
+            ("label", Data::text(&map.quantity.label)),
             ("x", Data::Floats(map.x.clone(), 1)),
             ("y", Data::Floats(map.y.clone(), 1)),
             ("values", Data::Floats(map.values.clone(), 1)),
