@@ -96,8 +96,9 @@ def network(
     """Extracts the pore network of a drawing and displaces one fluid by another in it, as ``meniscus network`` does, to the same bits.
 
     Args:
-        drawing: path of a drawing (SVG, DXF, shapefile, GeoJSON, WKT, list of discs, network of OpenPNM, image, shape file in TOML) or of a case file; or a shape file as a
-            dict, such as ``{"format": 1, "min": [0, 0], "max": [1e-3, 1e-3], "solid": "inside", "shapes": [{"disc": {"center": [0, 0], "radius": 1e-4}}]}``.
+        drawing: path of a drawing (SVG, DXF, shapefile, GeoJSON, WKT, list of discs, network of OpenPNM, image, shape file in TOML) or of a
+            case file; or a shape file as a dict, such as
+            ``{"format": 1, "min": [0, 0], "max": [1e-3, 1e-3], "solid": "inside", "shapes": [{"disc": {"center": [0, 0], "radius": 1e-4}}]}``.
         angle_deg: contact angle through the wetting phase in degrees (default 0).
         tension: interfacial tension in N/m; 1 if None, so that pressures are per N/m.
         inlet: side through which the invading phase enters: ``left``, ``right``, ``bottom`` or ``top``. If None, nothing is displaced.
