@@ -21,6 +21,14 @@ pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
+/// The distance of a point from a segment in m; from its ends, if these are one point.
+pub fn distance_to_segment(x: Vec2, [a, b]: [Vec2; 2]) -> f64 {
+    let along = b - a;
+    let squared = along.norm_squared();
+    let fraction = if squared > 0.0 { ((x - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    (x - a - along * fraction).norm()
+}
+
 /// The shortest periodic image of `difference` (m).
 #[inline]
 pub fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {

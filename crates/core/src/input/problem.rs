@@ -11,7 +11,7 @@ pub struct Problem {
     pub message: String,
     /// A remedy.
     pub help: String,
-    /// Key or table whose mistakes may have caused this one: it is told only where that has none.
+    /// Key or table whose mistakes may have caused this one: it is reported only where that has none.
     pub cause: Option<&'static str>,
 }
 

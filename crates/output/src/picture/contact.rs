@@ -1,6 +1,6 @@
 //! The interface at walls: where the smoothing of the color bends it, its fitted curve takes over up to the wall.
 
-use meniscus_core::math::Vec2;
+use meniscus_core::math::{Vec2, distance_to_segment};
 use meniscus_core::snapshot::Lines;
 
 /// Length of the bent end in particle spacings: the reach of the smoothing.
@@ -39,7 +39,7 @@ fn length(line: &[Vec2]) -> f64 {
 /// The vertices that continue a line to the wall on which `end` lies; `None` if it lies on none, or if the line does not come near it.
 fn continuation(line: &[Vec2], end: Vec2, outline: &Lines<'_>, spacing: f64) -> Option<Vec<Vec2>> {
     let walls = walls_within((BENT + REACH) * spacing, end, outline);
-    if !walls.iter().any(|wall| distance(end, *wall) < AT_WALL * spacing) {
+    if !walls.iter().any(|wall| distance_to_segment(end, *wall) < AT_WALL * spacing) {
         return None;
     }
     let curve = Parabola::fit(line, FITTED * spacing)?;
@@ -105,13 +105,7 @@ fn walls_within(reach: f64, of: Vec2, outline: &Lines<'_>) -> Vec<[Vec2; 2]> {
     let segments = outline.lines.iter().flat_map(|line| line.windows(2));
     let point = |index: u32| outline.points.get(index as usize).copied();
     let segments = segments.filter_map(|pair| Some([point(pair[0])?, point(pair[1])?]));
-    segments.filter(|wall| distance(of, *wall) < reach).collect()
-}
-
-fn distance(x: Vec2, [a, b]: [Vec2; 2]) -> f64 {
-    let along = b - a;
-    let fraction = (along.dot(&(x - a)) / along.norm_squared()).clamp(0.0, 1.0);
-    (x - a - if fraction.is_finite() { fraction * along } else { Vec2::zeros() }).norm()
+    segments.filter(|wall| distance_to_segment(of, *wall) < reach).collect()
 }
 
 /// Where two segments cross.

@@ -6,7 +6,7 @@ use std::fmt;
 use crate::import::network::channels::Channel;
 use crate::import::network::model::Network;
 use crate::import::network::openings::Openings;
-use meniscus_core::math::{Bounds, Vec2};
+use meniscus_core::math::{Bounds, Vec2, distance_to_segment};
 use meniscus_geometry::curve::cross;
 use meniscus_geometry::tree::Tree;
 
@@ -170,14 +170,7 @@ fn distance([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> f64 {
         return 0.0;
     }
     let ends = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])];
-    ends.into_iter().map(|(x, line)| to_segment(x, line)).fold(f64::INFINITY, f64::min)
-}
-
-fn to_segment(x: Vec2, [a, b]: [Vec2; 2]) -> f64 {
-    let along = b - a;
-    let squared = along.norm_squared();
-    let t = if squared > 0.0 { ((x - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    (x - a - along * t).norm()
+    ends.into_iter().map(|(x, line)| distance_to_segment(x, line)).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

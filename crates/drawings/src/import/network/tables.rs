@@ -192,7 +192,7 @@ fn throats_of(
     for row in 0..filled_rows(table, &[first, second]) {
         let mut pore = |column: usize| {
             let found = table.index(row, column).and_then(|number| numbers.get(&number).copied());
-            // Without any pore the mistake is told elsewhere.
+            // Without any pore the mistake is reported elsewhere.
             if found.is_none() && !numbers.is_empty() {
                 bad.push(table.refusal(row, column, format!("the number of a pore, a whole one from 0 to {most}")));
             }
