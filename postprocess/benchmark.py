@@ -1,15 +1,11 @@
-"""Our rows beside those of five codes in the public benchmark of surface-tension-driven flows.
-
-Usage: benchmark.py DIR, with the studies of `studies/benchmark` in DIR/stationary-drop, DIR/translating-drop and DIR/wave
+"""Our rows beside those of six codes in the public benchmark of surface-tension-driven flows: tables for `gallery.py`.
 
 Of drops: the median over the last half of the largest velocity error in the domain, and our rank among all codes. Of waves: the root mean square difference
 over the first amplitude to the linear solution, which the public reference takes for infinitely deep fluids; ours also to that of the box.
 """
 
-import argparse
 import cmath
 import csv
-import json
 import math
 from collections import defaultdict
 from pathlib import Path
@@ -26,29 +22,17 @@ def others() -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def ours(directory: Path) -> list[dict[str, str]]:
-    """The finished runs of a study."""
-    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        return [row for row in csv.DictReader(file) if row["status"] == "done"]
-
-
-def cost(directory: Path, run: str) -> float:
-    """Processor time of a run in s."""
-    report = json.loads((directory / "runs" / run / "report.json").read_text(encoding="utf-8"))
-    return report["cpu-s"] if report["cpu-s"] is not None else math.nan
-
-
-def drops(directory: Path, case: str) -> list[str]:
+def drops(runs: list[dict[str, str]], case: str) -> list[str]:
     """The table of a case with a drop: a row for each code, errors at 32, 64, 128 cells for each pair; then ranks and processor times."""
     errors = defaultdict(dict)
     for row in others():
         if row["case"] == case and int(row["cells"]) in CELLS:
             errors[row["solver"]][row["fluids"], int(row["cells"])] = float(row["largest_speed_error_m_per_s"])
     seconds = {}
-    for row in ours(directory):
+    for row in runs:
         key = row["fluids"], int(float(row["cells"]))
         errors[OURS][key] = float(row["parasitic-speed-m-per-s"])
-        seconds[key] = cost(directory, row["run"])
+        seconds[key] = float(row["cpu-s"])
     lines = ["| code | " + " | ".join(FLUIDS.values()) + " |", "|---" * (1 + len(FLUIDS)) + "|"]
     for solver in sorted(errors, key=lambda name: name != OURS):
         cells = [" / ".join(f"{errors[solver].get((fluids, n), math.nan):.2g}" for n in CELLS) for fluids in FLUIDS]
@@ -58,8 +42,43 @@ def drops(directory: Path, case: str) -> list[str]:
         places = [sorted(errors, key=lambda name: errors[name].get((fluids, n), math.inf)).index(OURS) + 1 for n in CELLS]
         ranks.append(" / ".join(map(str, places)))
     lines.append(f"| our rank of {len(errors)} | " + " | ".join(ranks) + " |")
-    times = [" / ".join(f"{seconds.get((fluids, n), math.nan):.0f}" for n in CELLS) for fluids in FLUIDS]
-    lines.append("| our processor time in s | " + " | ".join(times) + " |")
+    return [*lines, times(seconds)]
+
+
+def times(seconds: dict[tuple[str, int], float]) -> str:
+    """The row of our processor times in s."""
+    cells = [" / ".join(f"{seconds.get((fluids, n), math.nan):.0f}" for n in CELLS) for fluids in FLUIDS]
+    return "| our processor time in s | " + " | ".join(cells) + " |"
+
+
+def at_rest(results: dict[str, list[dict[str, str]]]) -> list[str]:
+    """The table of drops at rest."""
+    return drops(results["stationary-drop"], "stationary-drop")
+
+
+def travelling(results: dict[str, list[dict[str, str]]]) -> list[str]:
+    """The table of drops that travel."""
+    return drops(results["translating-drop"], "translating-drop")
+
+
+def beside_others(results: dict[str, list[dict[str, str]]]) -> list[str]:
+    """Speeds about travelling drops at 64 cells and angles on a tilted wall, in few numbers."""
+    ours = {row["fluids"]: float(row["parasitic-speed-m-per-s"]) for row in results["translating-drop"] if float(row["cells"]) == 64}
+    speeds = defaultdict(dict, {OURS: ours})
+    for row in others():
+        if row["case"] == "translating-drop" and int(row["cells"]) == 64:
+            speeds[row["solver"]][row["fluids"]] = float(row["largest_speed_error_m_per_s"])
+    wall = [row for row in results["tilted-wall"] if row["angle"] in ("30", "90", "150")]
+    angles = {
+        OURS: [f"{float(row['contact-angle-deg']):.1f}" for row in wall],
+        "Basilisk": [row["basilisk"] for row in wall],
+        "peclet": [row["peclet"] for row in wall],
+    }
+    lines = ["| code | " + " | ".join(f"drop of {name}" for name in FLUIDS.values()) + " | " + " | ".join(f"{row['angle']} degrees" for row in wall) + " |"]
+    lines.append("|---" * (1 + len(FLUIDS) + len(wall)) + "|")
+    for solver in dict.fromkeys([*speeds, *angles]):
+        cells = [f"{speeds[solver][fluids]:.2g} m/s" if solver in speeds else "–" for fluids in FLUIDS]
+        lines.append(f"| {solver} | " + " | ".join([*cells, *angles.get(solver, ["–"] * len(wall))]) + " |")
     return lines
 
 
@@ -125,36 +144,25 @@ def wave_error(directory: Path, row: dict[str, str], depth: float) -> float:
     return math.sqrt(sum(squares) / len(squares))
 
 
-def waves(directory: Path) -> list[str]:
+def wave_errors(directory: Path, row: dict[str, str]) -> dict[str, float]:
+    """The differences of a run to both solutions."""
+    return {"error-of-infinite-depth": wave_error(directory, row, math.inf), "error-of-the-box": wave_error(directory, row, 1.3e-3)}
+
+
+def waves(results: dict[str, list[dict[str, str]]]) -> list[str]:
     """The table of waves: differences at 32, 64, 128 cells for each pair."""
     errors = defaultdict(dict)
     for row in others():
         if row["case"] == "wave" and int(row["cells"]) in CELLS and row["wave_rms_error"]:
             errors[row["solver"]][row["fluids"], int(row["cells"])] = float(row["wave_rms_error"])
     box, seconds = OURS + ", against the solution of the box", {}
-    for row in ours(directory):
+    for row in results["wave"]:
         key = row["fluids"], int(float(row["cells"]))
-        errors[OURS][key] = wave_error(directory, row, math.inf)
-        errors[box][key] = wave_error(directory, row, 1.3e-3)
-        seconds[key] = cost(directory, row["run"])
+        errors[OURS][key] = float(row["error-of-infinite-depth"])
+        errors[box][key] = float(row["error-of-the-box"])
+        seconds[key] = float(row["cpu-s"])
     lines = ["| code | " + " | ".join(FLUIDS.values()) + " |", "|---" * (1 + len(FLUIDS)) + "|"]
     for solver in sorted(errors, key=lambda name: not name.startswith(OURS)):
         cells = [" / ".join(f"{errors[solver][fluids, n]:.3g}" if (fluids, n) in errors[solver] else "–" for n in CELLS) for fluids in FLUIDS]
         lines.append(f"| {solver} | " + " | ".join(cells) + " |")
-    times = [" / ".join(f"{seconds.get((fluids, n), math.nan):.0f}" for n in CELLS) for fluids in FLUIDS]
-    lines.append("| our processor time in s | " + " | ".join(times) + " |")
-    return lines
-
-
-def main() -> None:
-    """Prints the three tables."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("dir", type=Path)
-    directory = parser.parse_args().dir
-    for case in ("stationary-drop", "translating-drop"):
-        print(f"\n{case}\n\n" + "\n".join(drops(directory / case, case)))
-    print("\nwave\n\n" + "\n".join(waves(directory / "wave")))
-
-
-if __name__ == "__main__":
-    main()
+    return [*lines, times(seconds)]

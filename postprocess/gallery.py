@@ -1,13 +1,14 @@
-"""Runs the studies of the validation pages, stores their results and writes the tables of the pages from them.
+"""Runs the studies of the documentation, stores their results, writes the tables of the pages, and checks that the program still gives them.
 
-Usage: gallery.py run [NAME ...] [--program meniscus] [--out out/gallery]
+Usage: gallery.py run [NAME ...] [--program meniscus] [--out out/gallery] [--jobs N]
+       gallery.py check [NAME ...] [--program meniscus] [--limit SECONDS] [--jobs N]
        gallery.py store [NAME ...] [--out out/gallery]
        gallery.py write [--check]
        gallery.py stamp NAME [NAME ...]
 
-`run` does the studies and what `store` does: it stores their results in `docs/validation/results` and writes their
-figures and tables. `write` writes all tables from the stored results. `stamp` takes over an edit of a study or case
-that changes no number. A name is that of a study file; without names it is every study of a page.
+A name is that of a study file; without names it is every study of a page. `run` tells how long it will take, does the studies, the longest first and `--jobs` at a time, and what `store` does: it stores their results in
+`docs/validation/results` and writes their figures and tables. Started again with the same `--out` it goes on where it was. `check` does the cheapest run of each study again and fails where a measure
+is not the stored one within its error bar (or, without one, within 0.1 % or the `tolerance` of the layout). `write` writes all tables from the stored results. `stamp` takes over an edit of a study or case that changes no number.
 
 A page shows a table between two comments:
 
@@ -33,117 +34,44 @@ Its layout is the table NAME in `docs/validation/results/tables.toml`:
 | `cell` | the cell of columns without one |
 | `names` | what stands for a value of a parameter: `names.PARAMETER.VALUE = "text"` |
 | `more` | further rows at the end, as text |
+| `by` | function `module.function` of this folder that makes the lines of the table from the rows of each study, in place of `columns` |
+| `derived` | function that finds further columns of a run from its folder and row |
+| `drawn` | figures of functions from the folder of the study: `drawn."NAME.png" = "module.function"` |
 | `picture` | the `run` whose picture is taken and the `field` that it shows |
+| `missed` | why the study misses expectations of a measure: `missed.MEASURE = "sentence"`; each one that is missed needs it |
+| `tolerance` | relative difference that `check` allows a measure: `tolerance.MEASURE = 0.1` |
 
-A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or
-of a column of the study's table, and arithmetic goes from left to right. ` ±` at the end of the format adds the error
-bar, that by the spacing included. A column without a head is named by its field.
+A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or of a column of the study's table, and arithmetic goes from left to
+right. ` ±` at the end of the format adds the error bar, that by the spacing included. A column without a head is named by its field.
 
-`write` also writes the table of all cases and studies with the sections that show them, between
-`<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
-
-A stored result names the program that made it by a hash of its source: the first ten digits of the SHA-256 of the
-sorted paths and contents of `src`, of the sources in `crates` and of `Cargo.lock`, at the time of `run`. `write
---check` lists the tables whose program has another source than the present one; that is no failure.
+`write` also writes the table of all cases and studies with the sections that show them, between `<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
 """
 
 import argparse
-import csv
-import hashlib
-import io
-import json
+import os
 import re
-import shutil
 import subprocess
-import tempfile
+import time
 import tomllib
-import zlib
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
+import gallery_check
 from gallery_index import INDEX, index
+from gallery_results import MISSED, RESULTS, function, head_of, of_other_files, rows_of, stamp_again, store, study_file
 from gallery_tables import table
 
 ROOT = Path(__file__).resolve().parent.parent
-RESULTS = Path("docs/validation/results")
 LAYOUTS = RESULTS / "tables.toml"
-FIGURES = Path("docs/figures")
 BLOCK = re.compile(r"^(<!-- results: (\S+) -->\n)(.*?)^<!-- end of results -->", re.DOTALL | re.MULTILINE)
-# Parts of a study or case that change no run.
-REMARKS = ("[[expect", "[[trend", "[report", "[[report")
-DIGITS = 7
-HASH_DIGITS = 10
-# Ending of the list of the programs that have worked on a study folder.
-PROGRAMS = "programs.txt"
+# Keys of a layout that say how its studies are stored and checked.
+OF_STUDIES = ("derived", "drawn", "missed", "tolerance")
 
 
-def checksum(data: bytes) -> str:
-    """CRC-32 in hexadecimal digits."""
-    return f"{zlib.crc32(data):08x}"
-
-
-def program(root: Path) -> str:
-    """The hash of the present source of the program."""
-    sources = [root / "src", *(root / "crates").glob("*/src")]
-    files = [path for source in sources for path in source.rglob("*") if path.is_file()] + [root / "Cargo.lock"]
-    digest = hashlib.sha256()
-    for name, path in sorted((path.relative_to(root).as_posix(), path) for path in files):
-        digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()[:HASH_DIGITS]
-
-
-def noted(directory: Path) -> Path:
-    """The list of programs beside a study folder, in which a study to begin allows no other file."""
-    return directory.with_name(f"{directory.name}-{PROGRAMS}")
-
-
-def note_program(root: Path, directory: Path) -> None:
-    """Notes that the present program is about to work on a study folder."""
-    directory.parent.mkdir(parents=True, exist_ok=True)
-    before = programs(root, directory) if noted(directory).is_file() and directory.is_dir() else []
-    noted(directory).write_text("\n".join(dict.fromkeys([*before, program(root)])) + "\n", encoding="utf-8")
-
-
-def programs(root: Path, directory: Path) -> list[str]:
-    """The programs that have worked on a study folder; the present one where none is noted."""
-    file = noted(directory)
-    return file.read_text(encoding="utf-8").split() if file.is_file() else [program(root)]
-
-
-def essence(text: str) -> str:
-    """What of a study, case or shape file can change a run: no comments, title, expectations and report."""
-    kept, counts = [], True
-    for line in (line.split("#")[0].strip() for line in text.splitlines()):
-        if line.startswith("["):
-            counts = not line.startswith(REMARKS)
-        if line and counts and not line.startswith("title"):
-            kept.append(line)
-    return "\n".join(kept)
-
-
-def stamp(root: Path, path: str) -> str:
-    """The line of a stored result that tells the content of a file."""
-    data = (root / path).read_bytes()
-    is_text = path.endswith((".toml", ".csv"))
-    return f"# {checksum(essence(data.decode()).encode() if is_text else data)} {path}"
-
-
-def inputs(root: Path, path: str) -> list[str]:
-    """A study or case file and the files that it names, and so on."""
-    found = [path]
-    if path.endswith(".toml"):
-        for name in re.findall(r'"([^"\n]+\.\w+)"', (root / path).read_text(encoding="utf-8")):
-            named = (root / path).parent / name
-            if named.is_file():
-                found += inputs(root, named.resolve().relative_to(root.resolve()).as_posix())
-    return list(dict.fromkeys(found))
-
-
-def study_file(root: Path, name: str) -> str:
-    """Path of the study of a name."""
-    found = [path.relative_to(root).as_posix() for path in sorted((root / "studies").rglob(f"{name}.toml"))]
-    if len(found) != 1:
-        raise SystemExit(f"studies has {len(found)} files {name}.toml")
-    return found[0]
+def pages(root: Path) -> list[Path]:
+    """The pages that may show tables."""
+    readme = root / "README.md"
+    return [*([readme] if readme.is_file() else []), *sorted((root / "docs").rglob("*.md"))]
 
 
 def layouts(root: Path) -> dict[str, dict]:
@@ -163,108 +91,72 @@ def studies_of(text: str, tables: dict[str, dict]) -> list[str]:
     return [study for block in BLOCK.finditer(text) for study in layout_of(tables, block[2])["studies"]]
 
 
-def blocks(root: Path) -> list[tuple[Path, re.Match]]:
-    """The blocks of all pages."""
-    pages = sorted((root / "docs").rglob("*.md"))
-    return [(page, block) for page in pages for block in BLOCK.finditer(page.read_text(encoding="utf-8"))]
+def shown(root: Path) -> list[str]:
+    """The names of the tables of all pages."""
+    return [block[2] for page in pages(root) for block in BLOCK.finditer(page.read_text(encoding="utf-8"))]
 
 
 def used(root: Path) -> dict[str, dict]:
-    """The studies of the pages, each with the keys of its picture."""
-    tables, pictures = layouts(root), {}
-    for _, block in blocks(root):
-        layout = layout_of(tables, block[2])
-        for name in layout["studies"]:
-            pictures.setdefault(name, {}).update(layout.get("picture", {}) if name == layout["studies"][0] else {})
-    return pictures
+    """The studies of the pages, each with what its layouts say of it."""
+    tables, found = layouts(root), {}
+    for name in shown(root):
+        layout = layout_of(tables, name)
+        for study in layout["studies"]:
+            keys = (*OF_STUDIES, "picture") if study == layout["studies"][0] else OF_STUDIES
+            found.setdefault(study, {}).update({key: layout[key] for key in keys if key in layout})
+    return found
 
 
-def shortened(text: str) -> str:
-    """A number with as many digits as are stored; anything else as it is."""
-    try:
-        return f"{float(text):.{DIGITS}g}"
-    except ValueError:
-        return text
+def results(root: Path, name: str) -> Path:
+    """Where the results of a study are stored."""
+    return root / RESULTS / f"{name}.csv"
 
 
-def store(root: Path, name: str, directory: Path, picture: dict) -> None:
-    """Stores the complete runs of a study folder and the figures of it that a page shows."""
-    import gallery_figures  # matplotlib is needed here only
-
-    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        head, *rows = list(csv.reader(file))
-    complete = [row for row in rows if row[head.index("status")] == "done"]
-    reports = [json.loads((directory / "runs" / row[0] / "report.json").read_text("utf-8")) for row in complete]
-    if not reports:
-        raise SystemExit(f"{directory} has no complete run")
-    study = study_file(root, name)
-    pages = "".join(page.read_text(encoding="utf-8") for page in (root / "docs").rglob("*.md"))
-    figures = []
-    if f"figures/{name}-" in pages:
-        with tempfile.TemporaryDirectory() as folder:
-            for figure in gallery_figures.write(directory, Path(folder), picture.get("run"), picture.get("field")):
-                if f"figures/{figure.name}" in pages:
-                    shutil.copyfile(figure, root / FIGURES / figure.name)
-                    figures.append((FIGURES / figure.name).as_posix())
-    rows_text = io.StringIO()
-    measures = head.index("status") + 1
-    writer = csv.writer(rows_text, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows([row[:measures] + [shortened(text) for text in row[measures:]] for row in complete])
-    made_by, seconds = " and ".join(programs(root, directory)), sum(report["cpu-s"] for report in reports)
-    lines = [
-        f"# meniscus study run {study}",
-        f"# program {made_by}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
-        *[stamp(root, path) for path in [*inputs(root, study), *figures]],
-        f"# {checksum(rows_text.getvalue().encode())} rows",
-    ]
-    (root / RESULTS).mkdir(parents=True, exist_ok=True)
-    (root / RESULTS / f"{name}.csv").write_text("\n".join(lines) + "\n" + rows_text.getvalue(), encoding="utf-8")
-
-
-def stamp_again(root: Path, name: str) -> None:
-    """Takes over edits of the files of a stored result that change no number."""
-    path = root / RESULTS / f"{name}.csv"
-    lines = path.read_text(encoding="utf-8").splitlines()
-    figures = [line.split()[-1] for line in lines if line.startswith("#") and line.split()[-1].startswith("docs/")]
-    body = lines[next(index for index, line in enumerate(lines) if line.endswith(" rows")) :]
-    stamps = [stamp(root, file) for file in [*inputs(root, study_file(root, name)), *figures]]
-    path.write_text("\n".join([*lines[:2], *stamps, *body]) + "\n", encoding="utf-8")
-
-
-def measure(path: Path) -> list[dict[str, str]]:
-    """The runs of a stored result."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+def why_missed(root: Path, name: str, layout: dict) -> list[str]:
+    """A line for each measure whose expectations a study misses, with the reason of the layout."""
+    lines: dict[str, list[str]] = {}
+    for line in head_of(results(root, name)):
+        if line.startswith(MISSED):
+            measure, _, told = line.removeprefix(MISSED).partition(": ")
+            lines.setdefault(measure, []).append(told)
+    reasons = layout.get("missed", {})
+    without = [measure for measure in lines if measure not in reasons]
+    if without:
+        told = "; ".join(f"{measure}: {lines[measure][0]}" for measure in without)
+        raise SystemExit(f"{name} misses {told}\n{LAYOUTS.as_posix()} has no missed.{without[0]} with the reason")
+    few = {measure: "; ".join(told[:2]) + (f"; and {len(told) - 2} more" if len(told) > 2 else "") for measure, told in lines.items()}
+    return [f"- **Missed**: `{measure}` ({few[measure]}). {reasons[measure]}" for measure in lines]
 
 
 def sources(paths: list[Path]) -> str:
-    """What stands below a table: programs, commands and processor times of its results."""
-    commands: dict[str, list[str]] = {}
+    """What stands below a table: commands and processor times of its results."""
+    told = []
     for path in paths:
-        command, about = [line.lstrip("# ") for line in path.read_text(encoding="utf-8").splitlines()[:2]]
-        made_by, runs, seconds = about.split(", ")
+        command, about = [line.lstrip("# ") for line in head_of(path)[:2]]
+        runs, seconds = about.split(", ")
         part = "" if runs.split()[0] == runs.split()[2] else f"{runs}, "
-        commands.setdefault(made_by, []).append(f"`{command}` ({part}{seconds} of processor time)")
-    return "; ".join(f"{made_by}: {', '.join(told)}" for made_by, told in commands.items()).capitalize() + "."
+        told.append(f"`{command}` ({part}{seconds} of processor time)")
+    return ", ".join(told) + "."
 
 
 def written(root: Path, block: re.Match, tables: dict[str, dict]) -> str:
-    """A block with its table, and the commands and programs of its results."""
+    """A block with its table, the commands of its results, and what they miss."""
     layout = layout_of(tables, block[2])
-    paths = [root / RESULTS / f"{name}.csv" for name in layout["studies"]]
+    paths = [results(root, name) for name in layout["studies"]]
     if not all(path.is_file() for path in paths):
         return block[0]
-    lines = table(layout, {path.stem: measure(path) for path in paths})
-    lines += ["", sources(paths)]
-    body = "\n" + "\n".join(lines).lstrip() + "\n\n"
+    runs = {path.stem: [row for row in rows_of(path) if row["status"] == "done"] for path in paths}
+    lines = function(layout["by"])(runs) if "by" in layout else table(layout, runs)
+    lines += ["", sources(paths)] if paths else []
+    told = [line for name in layout["studies"] for line in why_missed(root, name, layout)]
+    body = "\n" + "\n".join([*lines, *([""] if told else []), *told]).strip() + "\n\n"
     return f"{block[1]}{body}<!-- end of results -->"
 
 
 def write(root: Path, check: bool = False) -> list[Path]:
     """Writes the tables of all pages, or only looks; returns the pages that change."""
     changed, tables = [], layouts(root)
-    for page in sorted((root / "docs").rglob("*.md")):
+    for page in pages(root):
         text = page.read_text(encoding="utf-8")
         renewed = BLOCK.sub(lambda block: written(root, block, tables), text)
         if INDEX.search(text):
@@ -279,75 +171,84 @@ def write(root: Path, check: bool = False) -> list[Path]:
 
 def stale(root: Path) -> list[str]:
     """What of the stored results is not of the present files and pages."""
-    shown = set(used(root))
-    stored = {
-        path.stem: path.read_text(encoding="utf-8").splitlines(keepends=True) for path in (root / RESULTS).glob("*.csv")
-    }
-    found = [f"{name}: stored, and on no page" for name in sorted(stored.keys() - shown)]
-    found += [f"{name}: on a page, and not stored" for name in sorted(shown - stored.keys())]
-    on_pages = {block[2] for _, block in blocks(root)}
-    found += [f"{LAYOUTS.as_posix()}: no page shows [{name}]" for name in sorted(layouts(root).keys() - on_pages)]
-    for name, lines in sorted(stored.items()):
-        head = [line.strip() for line in lines if line.startswith("#")]
-        rows = "".join(lines[len(head) :])
-        kept = [f"# {checksum(rows.encode())} rows"]
-        kept += [stamp(root, path) for path in inputs(root, study_file(root, name))]
-        told = [line for line in head[2:] if line.split()[-1].startswith("docs/figures/")]
-        kept += [stamp(root, line.split()[-1]) for line in told]
-        found += [f"{name}: {line}" for line in sorted(set(kept) ^ set(head[2:]))]
-    return found
+    on_pages, stored = set(used(root)), {path.stem for path in (root / RESULTS).glob("*.csv")}
+    found = [f"{name}: stored, and on no page" for name in sorted(stored - on_pages)]
+    found += [f"{name}: on a page, and not stored" for name in sorted(on_pages - stored)]
+    found += [f"{LAYOUTS.as_posix()}: no page shows [{name}]" for name in sorted(layouts(root).keys() - set(shown(root)))]
+    return found + [line for name in sorted(stored & on_pages) for line in of_other_files(root, name)]
 
 
-def of_other_programs(root: Path) -> list[str]:
-    """The names of the tables that a program of another source than the present one made, at least in part."""
-    present, tables, found = program(root), layouts(root), []
-    for name in sorted({block[2] for _, block in blocks(root)}):
-        studies = layout_of(tables, name)["studies"]
-        heads = [(root / RESULTS / f"{study}.csv").read_text(encoding="utf-8") for study in studies]
-        if not all(head.splitlines()[1].startswith(f"# program {present},") for head in heads):
-            found.append(name)
-    return found
+def seconds_of(root: Path, name: str) -> float | None:
+    """The processor time of a stored study in s; none if it is not stored."""
+    path = results(root, name)
+    return float(head_of(path)[1].split()[-2]) if path.is_file() else None
+
+
+def run(root: Path, studies: dict[str, dict], program: str, out: Path, jobs: int) -> list[str]:
+    """Does and stores studies, the longest first, each with one thread; returns the names of those that could not be done."""
+    costs = {name: seconds_of(root, name) for name in studies}
+    order = sorted(studies, key=lambda name: -(costs[name] if costs[name] is not None else float("inf")))
+    known = [cost for cost in costs.values() if cost is not None]
+    new = f", and {len(order) - len(known)} that are not stored" if len(known) < len(order) else ""
+    print(f"{len(known)} studies of {sum(known) / 60:.0f} min of processor time{new}, {jobs} at a time: at least {sum(known) / jobs / 60:.0f} min", flush=True)
+    started, failed = time.monotonic(), []
+
+    def do(name: str) -> str:
+        arguments = ["study", "run", study_file(root, name), "--out", str((out / f"study-{name}").resolve()), "--jobs", "1", "--threads", "1"]
+        # Expectations that it misses are for the page to tell.
+        subprocess.run([program, *arguments], cwd=root, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return name
+
+    with ThreadPoolExecutor(jobs) as pool:
+        for number, done in enumerate(as_completed([pool.submit(do, name) for name in order]), start=1):
+            name = done.result()
+            try:
+                store(root, name, out / f"study-{name}", studies[name])
+            except (OSError, SystemExit) as error:
+                failed.append(name)
+                print(error, flush=True)
+            print(f"{number} of {len(order)}: {name}, after {(time.monotonic() - started) / 60:.1f} min", flush=True)
+    return failed
 
 
 def main() -> None:
-    """Runs, stores, writes or stamps."""
-    parser = argparse.ArgumentParser(description="tables and figures of the validation pages")
-    parser.add_argument("what", choices=["run", "store", "write", "stamp"])
+    """Runs, checks, stores, writes or stamps."""
+    parser = argparse.ArgumentParser(description="tables and figures of the documentation")
+    parser.add_argument("what", choices=["run", "check", "store", "write", "stamp"])
     parser.add_argument("names", nargs="*", help="names of studies; all by default")
     parser.add_argument("--program", default="meniscus", help="the program that runs the studies")
     parser.add_argument("--out", type=Path, default=Path("out/gallery"), help="folder of the study folders")
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="studies at a time, a thread each")
+    parser.add_argument("--limit", type=float, default=float("inf"), help="check only studies with a run of less processor time in s")
     parser.add_argument(
         "--check",
         action="store_true",
         help="write nothing, but fail if a table would change or a stored result is of other files",
     )
     asked = parser.parse_intermixed_args()
-    pictures = used(ROOT)
     if asked.what == "stamp" and not asked.names:
         parser.error("name the studies whose edits change no number")
-    for name in asked.names or pictures:
-        directory = asked.out / f"study-{name}"
-        if asked.what == "run":
-            note_program(ROOT, directory)
-            command = [asked.program, "study", "run", study_file(ROOT, name), "--out", str(directory.resolve())]
-            subprocess.run(command, cwd=ROOT, check=False)  # expectations that miss are for the page to tell
-        if asked.what in ("run", "store"):
-            store(ROOT, name, directory, pictures.get(name, {}))
+    known = used(ROOT)
+    studies = {name: known.get(name, {}) for name in asked.names or known}
+    if asked.what == "check":
+        different = gallery_check.check(ROOT, asked.program, studies, asked.limit, asked.jobs)
+        print(*different, sep="\n", end="\n" if different else "")
+        raise SystemExit("not the stored results: gallery.py run NAME" if different else 0)
+    failed = run(ROOT, studies, asked.program, asked.out, asked.jobs) if asked.what == "run" else []
+    for name, settings in studies.items():
+        if asked.what == "store":
+            store(ROOT, name, asked.out / f"study-{name}", settings)
         if asked.what == "stamp":
             stamp_again(ROOT, name)
     changed = write(ROOT, asked.check)
     for page in changed:
         print(page.relative_to(ROOT))
-    if asked.check:
-        found = stale(ROOT)
-        print(*found, sep="\n", end="\n" if found else "")
-        older = [] if found else of_other_programs(ROOT)
-        if older:
-            print(f"of another program than that of the present src ({program(ROOT)}): {', '.join(older)}")
-        if changed or found:
-            raise SystemExit(
-                "not the tables of stored results, or not results of the present files: gallery.py run NAME"
-            )
+    found = stale(ROOT) if asked.check else []
+    print(*found, sep="\n", end="\n" if found else "")
+    if asked.check and (changed or found):
+        raise SystemExit("not the tables of stored results, or not results of the present files: gallery.py run NAME")
+    if failed:
+        raise SystemExit(f"not stored: {', '.join(failed)}")
 
 
 if __name__ == "__main__":

@@ -1,12 +1,9 @@
 """Dynamic contact angles by molecular kinetic theory against two experiments in etched channels: the split of a flow at a crevice, and angles in curved channels.
 
-Usage: kinetic_angles.py split   the share of the flow that enters the crevice, by balance of both menisci, for 24 conditions
-       kinetic_angles.py angles  31 angles in four channels by one law, fitted on the straight one
-
-Both experiments: Zhang and others (2024). cos(theta) = cos(theta_0) - 2 k T/(sigma lambda^2) asinh(u/(2 kappa lambda)) (Blake and Haynes 1969).
+Two tables for `gallery.py`: the share of the flow that enters the crevice, by balance of both menisci, for 24 conditions, and 31 angles in four channels by one law, fitted on the
+straight one. Both experiments: Zhang and others (2024). cos(theta) = cos(theta_0) - 2 k T/(sigma lambda^2) asinh(u/(2 kappa lambda)) (Blake and Haynes 1969).
 """
 
-import argparse
 import csv
 import math
 from collections import defaultdict
@@ -68,7 +65,7 @@ def share(law: Law, upstream: float, width: float) -> float:
     return low
 
 
-def split() -> list[str]:
+def split(_: dict) -> list[str]:
     """The table of all splits, and how many lie within both readings and the bar."""
     lines = ["| crevice, edge in mm | upstream in mm/s | measured | " + " | ".join(f"jumps of {name}" for name in CHANNELS) + " |"]
     lines.append("|---" * (3 + len(CHANNELS)) + "|")
@@ -110,7 +107,7 @@ def fitted(of: list[dict[str, str]]) -> Law:
     return Law(at[0], math.exp(at[1]), math.exp(at[2]))
 
 
-def angles() -> list[str]:
+def angles(_: dict) -> list[str]:
     """The law of the straight channel in all four."""
     channels = defaultdict(list)
     for row in rows(ANGLES):
@@ -124,14 +121,3 @@ def angles() -> list[str]:
         largest = max(errors, key=abs)
         lines.append(f"| {name} | {liquid} | {len(of)} | {spread(law, of):.1f}, {largest:+.1f} | {spread(fitted(of), of):.1f} |")
     return lines
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=["split", "angles"])
-    table = {"split": split, "angles": angles}[parser.parse_args().table]
-    print("\n".join(table()))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,11 +1,9 @@
-"""The curvature at which a front passes a row of a square lattice, and where its contact lines lie before, beside the closed forms: tables.
+"""The curvature at which a front passes a row of a square lattice, and where its contact lines lie before, beside the closed forms.
 
-Usage: lattice_passes.py DIR, with the study of `studies/benchmark/lattice.toml` in DIR, or a single run of its case
+Usage: lattice_passes.py DIR, with a run of `cases/benchmark/lattice.toml` in DIR
 """
 
 import argparse
-import csv
-import json
 import math
 from pathlib import Path
 
@@ -25,27 +23,11 @@ def closed_form(deg: float) -> tuple[str, float]:
     return "burst", 1.0 / (RADIUS * cos + math.sqrt(0.25 - (RADIUS * sin) ** 2))
 
 
-def measured(directory: Path) -> tuple[float, float, float]:
-    """Curvature times distance, half of its interval, and processor time in s."""
-    report = json.loads((directory / "report.json").read_text(encoding="utf-8"))
-    found = report["measures"]["burst-pressure-Pa"]
-    value, half = (math.nan if found[name] is None else found[name] * LENGTH_OVER_TENSION for name in ("value", "uncertainty"))
-    return value, half, report["cpu-s"]
-
-
-def table(directory: Path) -> list[str]:
-    """A line for each finished run."""
-    lines = ["| angle | event | closed form | spacing over distance | measured | error | processor time in s |", "|---" * 7 + "|"]
-    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            if row["status"] != "done":
-                continue
-            event, exact = closed_form(float(row["angle"]))
-            value, half, seconds = measured(directory / "runs" / row["run"])
-            ratio = 1e-3 / float(row["spacing"])
-            found = "never at rest | –" if math.isnan(value) else f"{value:.3f} ± {half:.3f} | {100 * (value / exact - 1):+.1f} %"
-            lines.append(f"| {row['angle']} | {event} | {exact:.3f} | 1/{ratio:.0f} | {found} | {seconds:.0f} |")
-    return lines
+def row_passed(_: Path, row: dict[str, str]) -> dict[str, float | str]:
+    """What passes a flat front by the closed form, its curvature times the distance, and the measured one, for the layout of `gallery.py`."""
+    event, exact = closed_form(float(row["angle"]))
+    found, half = (float(row[name] or "nan") * LENGTH_OVER_TENSION for name in ("burst-pressure-Pa", "burst-pressure-Pa-uncertainty"))
+    return {"event": event, "exact": exact, "curvature": found, "curvature-uncertainty": half}
 
 
 def azimuth(deg: float, curvature: float) -> float:
@@ -80,11 +62,10 @@ def azimuths(directory: Path) -> list[str]:
 
 
 def main() -> None:
-    """Prints the table."""
+    """Prints the table of a run."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("dir", type=Path)
-    directory = parser.parse_args().dir
-    print("\n".join(table(directory) if (directory / "table.csv").exists() else azimuths(directory)))
+    print("\n".join(azimuths(parser.parse_args().dir)))
 
 
 if __name__ == "__main__":

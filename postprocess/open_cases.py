@@ -1,17 +1,17 @@
-"""Tables and pictures of the cases that other programs, users of them, or lubrication theory have values for.
-
-Usage: open_cases.py DIR [--figures docs/figures], with the studies of `studies/benchmark` in DIR/tilted-wall, DIR/small-bubble and DIR/withdrawn-plate
+"""What the cases of `studies/benchmark` have that their reports have not, and their pictures: for the layouts of `gallery.py`.
 
 Drops on a tilted wall, a small bubble at rest, and a plate drawn out of a bath, the last beside the fold of all steady menisci by lubrication theory: Navier
 slip, a fluid above without viscosity, the wedge of Huh and Scriven (1971) with a free side, as in Chan, Snoeijer and Eggers (2012).
 """
 
-import argparse
 import csv
-import json
+import functools
 import math
 from pathlib import Path
 
+import matplotlib
+
+matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -26,13 +26,9 @@ REPORTED = 2.3
 
 
 def runs(directory: Path) -> list[dict[str, str]]:
-    """The finished runs of a study, with the processor time of each in s."""
+    """The finished runs of a study."""
     with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row["status"] == "done"]
-    for row in rows:
-        report = json.loads((directory / "runs" / row["run"] / "report.json").read_text(encoding="utf-8"))
-        row["cpu-s"] = report["cpu-s"] if report["cpu-s"] is not None else math.nan
-    return rows
+        return [row for row in csv.DictReader(file) if row["status"] == "done"]
 
 
 def series(directory: Path, run: str, columns: list[str]) -> np.ndarray:
@@ -69,18 +65,12 @@ def radius_of(points: np.ndarray) -> float:
     return math.sqrt(c + a**2 + b**2)
 
 
-def tilted(directory: Path) -> list[str]:
-    """The table of drops on a tilted wall: degrees asked and found, and processor times."""
-    lines = ["| asked | Basilisk | peclet | meniscus | by radius and area | base over exact | processor time in s |", "|---" * 7 + "|"]
-    for row in runs(directory):
-        angle = round(float(row["angle"]))
-        area = series(directory, row["run"], ["wetting_area_m2"])[0, -1]
-        radius = radius_of(np.concatenate(interface(directory, row["run"])))
-        lines.append(
-            f"| {angle} | {BASILISK[angle]} | {PECLET.get(angle, '–')} | {float(row['contact-angle-deg']):.1f} | {angle_of(radius, area):.1f} | "
-            f"{float(row['base-ratio']):.3f} | {row['cpu-s']:.0f} |"
-        )
-    return lines
+def tilted(directory: Path, row: dict[str, str]) -> dict[str, float | str]:
+    """The angle in degrees by the area of a drop and the radius of the circle of least squares through its interface, and those of other codes."""
+    asked = round(float(row["angle"]))
+    area = series(directory, row["run"], ["wetting_area_m2"])[0, -1]
+    radius = radius_of(np.concatenate(interface(directory, row["run"])))
+    return {"angle-by-radius": angle_of(radius, area), "basilisk": BASILISK[asked], "peclet": PECLET.get(asked, "–")}
 
 
 def exact_arc(angle: float, area: float) -> np.ndarray:
@@ -106,18 +96,9 @@ def draw_tilted(directory: Path, picture: Path) -> None:
     plt.close(figure)
 
 
-def bubble(directory: Path) -> list[str]:
-    """The table of the bubble: largest speeds, pressure jump, drift of its center, and processor time."""
-    lines = [
-        "| spacings in the radius | largest speed in m/s | error of the pressure jump | drift of the center over the radius | processor time in s |",
-        "|---" * 5 + "|",
-    ]
-    for row in sorted(runs(directory), key=lambda row: -float(row["spacing"])):
-        jump = row["laplace-jump-ratio"]
-        drift = np.linalg.norm(np.concatenate(interface(directory, row["run"])).mean(axis=0)) / 3e-5
-        error = f"{100 * (float(jump) - 1):+.2f} %" if jump else "–"
-        lines.append(f"| {3e-5 / float(row['spacing']):.0f} | {float(row['parasitic-speed-m-per-s']):.2g} | {error} | {drift:.1g} | {row['cpu-s']:.0f} |")
-    return lines
+def bubble(directory: Path, row: dict[str, str]) -> dict[str, float]:
+    """How far the center of the bubble is from the middle of the box, over the radius."""
+    return {"drift": float(np.linalg.norm(np.concatenate(interface(directory, row["run"])).mean(axis=0)) / 3e-5)}
 
 
 def draw_bubble(directory: Path, picture: Path) -> None:
@@ -163,6 +144,7 @@ def steady_menisci(capillary_number: float, slip: float, count: int = 160) -> np
     return found[np.isfinite(found[:, 0])]
 
 
+@functools.cache
 def fold(angle: float, slip: float) -> tuple[float, float]:
     """The largest capillary number at which a line rests, and its height in capillary lengths."""
     low, high = 1e-4, 0.5
@@ -200,28 +182,25 @@ def bath_and_line(directory: Path, run: str) -> np.ndarray:
     return np.array(found).T
 
 
-def plate(directory: Path) -> list[str]:
-    """The table of the plate: the height of the line beside that of lubrication theory, which ends at the fold, and whether liquid stays on the plate."""
-    lines = [
-        "| slip length | spacing | capillary number | over that of the fold | height | of lubrication | rise over speed of the plate | records with pieces "
-        "on the plate | processor time in s |",
-        "|---" * 9 + "|",
-    ]
-    folds = {}
-    for row in sorted(runs(directory), key=lambda row: (-float(row["slip"]), -float(row["spacing"]), float(row["speed"]))):
-        slip, number = float(row["slip"]) / LENGTH, float(row["speed"]) / UNIT_SPEED
-        critical = folds.setdefault(slip, fold(ANGLE, slip))[0]
-        time, height = bath_and_line(directory, row["run"])
-        late = time >= 0.75 * time[-1]
-        rise = np.polyfit(time[late], height[late], 1)[0] / float(row["speed"])
-        pieces = (series(directory, row["run"], ["wetting_blobs"])[0] > 1).mean()
-        theory = resting_height(number, slip)
-        lines.append(
-            f"| {slip:.2g} | {float(row['spacing']) / LENGTH:.2g} | {number:.2f} | {number / critical:.2f} | {height[late].mean() / LENGTH:.2f} | "
-            f"{'–' if math.isnan(theory) else f'{theory:.2f}'} | {rise:.3f} | {100 * pieces:.0f} % | {row['cpu-s']:.0f} |"
-        )
-    lines += ["\n| fold at a slip length of | at 30 degrees: capillary number, height | at 60 degrees |", "|---" * 3 + "|"]
-    for slip in (0.1, 0.05, 0.02, 0.01):
+def plate(directory: Path, row: dict[str, str]) -> dict[str, float]:
+    """The height of the line in capillary lengths beside that of lubrication theory, which ends at the fold, its rise, and how often liquid stays on the plate."""
+    slip, number = float(row["slip"]) / LENGTH, float(row["speed"]) / UNIT_SPEED
+    time, height = bath_and_line(directory, row["run"])
+    late = time >= 0.75 * time[-1]
+    return {
+        "capillary-number": number,
+        "over-fold": number / fold(ANGLE, slip)[0],
+        "height": height[late].mean() / LENGTH,
+        "lubrication": resting_height(number, slip),
+        "rise-over-speed": np.polyfit(time[late], height[late], 1)[0] / float(row["speed"]),
+        "with-pieces": (series(directory, row["run"], ["wetting_blobs"])[0] > 1).mean(),
+    }
+
+
+def folds(_: dict) -> list[str]:
+    """The table of folds: capillary number and height."""
+    lines = ["| fold at a slip length of | at 30 degrees: capillary number, height | at 60 degrees |", "|---" * 3 + "|"]
+    for slip in (0.1, 0.05):
         lines.append(f"| {slip} | " + " | ".join("{:.4f}, {:.2f}".format(*fold(angle, slip)) for angle in (30.0, 60.0)) + " |")
     return lines
 
@@ -245,21 +224,3 @@ def draw_plate(directory: Path, picture: Path) -> None:
     panels[0].set_ylabel("height of the line/capillary length")
     figure.savefig(picture, dpi=100)
     plt.close(figure)
-
-
-def main() -> None:
-    """Prints the tables and draws the pictures of the studies that are there."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("dir", type=Path)
-    parser.add_argument("--figures", type=Path)
-    asked = parser.parse_args()
-    plt.switch_backend("Agg")
-    for name, table, draw in (("tilted-wall", tilted, draw_tilted), ("small-bubble", bubble, draw_bubble), ("withdrawn-plate", plate, draw_plate)):
-        if (asked.dir / name / "table.csv").is_file():
-            print(f"\n{name}\n\n" + "\n".join(table(asked.dir / name)))
-            if asked.figures:
-                draw(asked.dir / name, asked.figures / f"{name}.png")
-
-
-if __name__ == "__main__":
-    main()

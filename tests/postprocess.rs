@@ -23,12 +23,28 @@ fn the_scripts_pass_their_own_tests() {
 
 #[test]
 fn the_tables_of_the_validation_pages_are_those_of_stored_results_of_the_present_files() {
-    let printed = run(
+    run(
         script("gallery.py").args(["write", "--check"]),
         "no number is edited by hand, and no result is of another case",
     );
-    // Which tables an older program has made: no failure.
-    println!("{printed}");
+}
+
+/// The cheapest run of each study of the documentation whose run takes less than a second of processor time.
+#[test]
+fn the_program_gives_the_stored_results_of_cheap_studies() {
+    check_of_stored_results(&["--limit", "1"]);
+}
+
+#[test]
+#[ignore = "takes minutes: cargo test --release --test postprocess -- --ignored; .ci/run does it"]
+fn the_program_gives_the_stored_results_of_all_studies() {
+    check_of_stored_results(&[]);
+}
+
+fn check_of_stored_results(more: &[&str]) {
+    let mut command = script("gallery.py");
+    command.args(["check", "--program", env!("CARGO_BIN_EXE_meniscus")]).args(more);
+    println!("{}", run(&mut command, "every measure must be the stored one within its tolerance"));
 }
 
 #[test]

@@ -10,6 +10,9 @@ SCRIPTS = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(SCRIPTS))
 
 import gallery  # noqa: E402
+import gallery_check  # noqa: E402
+import gallery_results  # noqa: E402
+import gallery_tables  # noqa: E402
 
 STUDY = """# A drop.
 title = "A drop"
@@ -62,8 +65,6 @@ class Gallery(unittest.TestCase):
             "studies/drop.toml": STUDY,
             "cases/drop.toml": 'format = 1 # one\nfile = "disc.toml"\n',
             "cases/disc.toml": "shapes = []\n",
-            "src/lib.rs": "",
-            "Cargo.lock": "",
             gallery.LAYOUTS.as_posix(): LAYOUTS,
             "docs/drop.md": PAGE,
             "out/table.csv": TABLE,
@@ -78,20 +79,32 @@ class Gallery(unittest.TestCase):
         """Removes the folder."""
         self.temporary.cleanup()
 
-    def stored(self) -> str:
+    def stored(self, settings: dict | None = None) -> str:
         """The stored result after the study has been stored."""
-        gallery.store(self.root, "drop", self.out, {})
+        gallery.store(self.root, "drop", self.out, settings or {})
         return (self.root / gallery.RESULTS / "drop.csv").read_text(encoding="utf-8")
 
-    def test_a_stored_result_tells_command_program_files_and_complete_runs(self):
-        """Seven digits of each measure are stored."""
+    def test_a_stored_result_tells_command_files_and_all_runs(self):
+        """Seven digits of each measure are stored, and the processor time of each complete run."""
         lines = self.stored().splitlines()
         self.assertEqual(lines[0], "# meniscus study run studies/drop.toml")
-        self.assertEqual(lines[1], f"# program {gallery.program(self.root)}, 3 of 4 runs, 6.0 s")
+        self.assertEqual(lines[1], "# 3 of 4 runs, 6.0 s")
         names = [line.split()[-1] for line in lines[2:5]]
         self.assertEqual(names, ["studies/drop.toml", "cases/drop.toml", "cases/disc.toml"])
-        self.assertEqual(lines[7], "a,60,8e-5,done,59.87654,0.12,0.99")
-        self.assertEqual(len(lines), 10)
+        self.assertEqual(lines[7], "a,60,8e-5,done,59.87654,0.12,0.99,2")
+        self.assertEqual(lines[10], "d,90,5e-5,to do,,,,")
+        self.assertEqual(len(lines), 11)
+
+    def test_a_function_of_the_layout_finds_further_columns(self):
+        """They are stored beside the measures; what it does not find is empty."""
+        settings = {"derived": "gallery_tables.same_run"}
+        gallery_tables.same_run = lambda directory, row: {"twice": 2 * float(row["angle"]), "nothing": float("nan")}
+        try:
+            lines = self.stored(settings).splitlines()
+        finally:
+            del gallery_tables.same_run
+        self.assertTrue(lines[6].endswith(",twice,nothing,cpu-s"))
+        self.assertEqual(lines[7], "a,60,8e-5,done,59.87654,0.12,0.99,120,,2")
 
     def test_a_table_has_error_bars_signs_and_cells_without_a_measure(self):
         """A second write changes nothing, and a changed number is put right."""
@@ -102,13 +115,50 @@ class Gallery(unittest.TestCase):
         self.assertIn("| 60 | 59.88 ± 0.12 (\u22121.0 %) | 60.04 (+0.1 %) |\n", text)
         self.assertIn("| 90 | none (\u2212100.0 %) |  |\n", text)
         self.assertIn("`meniscus study run studies/drop.toml` (3 of 4 runs, 6.0 s of processor time).", text)
-        self.assertIn(f"\nProgram {gallery.program(self.root)}: `meniscus", text)
         self.assertTrue(text.endswith("The end.\n"))
         self.assertEqual(gallery.write(self.root), [])
         page.write_text(text.replace("59.88", "60.00"), encoding="utf-8")
         self.assertEqual(gallery.write(self.root, check=True), [page])
         gallery.write(self.root)
         self.assertEqual(page.read_text(encoding="utf-8"), text)
+
+    def test_what_a_study_misses_stands_below_its_table_with_the_reason(self):
+        """Without a reason in the layout no page can be written."""
+        judged = "run,measure,expected,found,verdict\na,height-ratio,1 ± 0.001,0.99,missed\nb,height-ratio,1 ± 0.001,1.001,met\n"
+        (self.out / "expectations.csv").write_text(judged, encoding="utf-8")
+        self.assertEqual(self.stored().splitlines()[2], "# missed height-ratio: a: 1 ± 0.001, found 0.99")
+        with self.assertRaisesRegex(SystemExit, r"drop misses height-ratio: a: .*\n.*no missed.height-ratio"):
+            gallery.write(self.root)
+        layouts = self.root / gallery.LAYOUTS
+        layouts.write_text(LAYOUTS + '[angles.missed]\nheight-ratio = "It is low."\n', encoding="utf-8")
+        gallery.write(self.root)
+        text = (self.root / "docs/drop.md").read_text(encoding="utf-8")
+        self.assertIn("time).\n\n- **Missed**: `height-ratio` (a: 1 ± 0.001, found 0.99). It is low.\n\n<!-- end", text)
+        gallery.stamp_again(self.root, "drop")
+        self.assertEqual(gallery.stale(self.root), [])
+
+    def test_a_measure_is_checked_within_its_bar_or_a_relative_difference(self):
+        """The cheapest complete run counts; numbers without a unit may differ by rounding."""
+        self.stored()
+        rows = gallery_results.rows_of(self.root / gallery.RESULTS / "drop.csv")
+        number, row = gallery_check.cheapest(rows)
+        self.assertEqual((number, row["run"]), (1, "a"))
+        units = {"contact-angle-deg": "deg", "height-ratio": ""}
+
+        def differences(**found: str) -> list[str]:
+            return gallery_check.differences(row, {name.replace("_", "-"): text for name, text in found.items()}, units, {})
+
+        self.assertEqual(differences(contact_angle_deg="59.99", height_ratio="0.9909", unknown="1.0"), [])
+        self.assertEqual(
+            differences(contact_angle_deg="60.01", height_ratio="0.9911"),
+            [
+                "contact-angle-deg was 59.87654, is 60.01 (tolerance 0.12)",
+                "height-ratio was 0.99, is 0.9911 (tolerance 0.00099)",
+            ],
+        )
+        self.assertEqual(differences(height_ratio=""), ["height-ratio was 0.99, is none (tolerance the same)"])
+        self.assertEqual(gallery_check.differences({"drift": "0"}, {"drift": "1e-10"}, {"drift": ""}, {}), [])
+        self.assertEqual(len(gallery_check.differences({"drift": "0"}, {"drift": "1e-10"}, {"drift": "m"}, {})), 1)
 
     def test_a_stamp_takes_over_an_edit_of_the_case(self):
         """Comments, titles and expectations do not count anyway."""
@@ -123,18 +173,6 @@ class Gallery(unittest.TestCase):
         after = (self.root / gallery.RESULTS / "drop.csv").read_text(encoding="utf-8").splitlines()
         changed = [new for old, new in zip(before.splitlines(), after, strict=True) if old != new]
         self.assertEqual([line.split()[-1] for line in changed], ["cases/disc.toml"])
-
-    def test_a_table_of_another_program_is_named(self):
-        """A study folder remembers the programs that have worked on it."""
-        self.stored()
-        self.assertEqual(gallery.of_other_programs(self.root), [])
-        gallery.note_program(self.root, self.out)
-        first = gallery.program(self.root)
-        (self.root / "src/lib.rs").write_text("// changed\n", encoding="utf-8")
-        self.assertEqual(gallery.of_other_programs(self.root), ["angles"])
-        self.assertEqual(gallery.stale(self.root), [])
-        gallery.note_program(self.root, self.out)
-        self.assertEqual(gallery.programs(self.root, self.out), [first, gallery.program(self.root)])
 
     def test_every_layout_is_on_a_page_and_every_table_has_a_layout(self):
         """A check tells the one, and a table without layout ends the script."""

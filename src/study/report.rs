@@ -18,7 +18,7 @@ use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results
 use super::run::PlannedRun;
 use super::table::{self, Table};
 use super::values::number_of;
-use super::verdict::{Judgment, judgments};
+use super::verdict::{self, Judgment, judgments};
 use super::wording::Wording;
 use crate::run::compare::CURVES;
 use crate::run::pressure_curves::{self, Overlaid};
@@ -99,7 +99,7 @@ fn pressures(
     Ok(if runs.len() > 1 { pressure_curves::overlay(&runs, wording.labels(&names), &shades)? } else { None })
 }
 
-/// Writes `table.csv`, `table.md`, `curve-1.svg`, `map-1.svg` and so on, and `report.html`.
+/// Writes `table.csv`, `table.md`, `expectations.csv`, `curve-1.svg`, `map-1.svg` and so on, and `report.html`.
 pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
     report_of(study, results(runs, folder), folder, &[])
 }
@@ -145,6 +145,9 @@ pub(crate) fn report_of(
     let csv = path(if uncertainty.is_some() { "samples.csv" } else { "table.csv" });
     atomic::write(&csv, &table::full(study, &results, &resolution).csv()?)?;
     atomic::write(&path("table.md"), table.markdown().as_bytes())?;
+    if !judgments.is_empty() {
+        atomic::write(&path("expectations.csv"), &verdict::table(&judgments).csv()?)?;
+    }
     let mut curves = Vec::new();
     for (number, curve) in study.report.curves.iter().enumerate() {
         if let Some(text) = svg(curve, &results, &wording)? {

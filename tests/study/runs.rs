@@ -297,6 +297,9 @@ order = 50.0
     // Met: the wide angle in two runs, the drift in two. Missed: the narrow angle in two, and the order in both groups.
     assert!(text.contains("4 met, 4 missed, 0 open"), "{text}");
     assert!(text.contains("order at least 50"), "{text}");
+    let judged = read(&folder.path().join("out/expectations.csv"));
+    assert_eq!(judged.lines().next().unwrap(), "run,measure,expected,found,verdict");
+    assert_eq!([",met", ",missed"].map(|end| judged.lines().filter(|line| line.ends_with(end)).count()), [4, 4]);
     let page = read(&folder.path().join("out/report.html"));
     // The area drift is expected at one angle and reported at both, the angle by its trend.
     assert_eq!(text.matches("of area-drift along spacing").count(), 2, "{text}");
