@@ -16,10 +16,15 @@ ROUNDING = 1e-9
 BARS = ("uncertainty", "discretization-uncertainty")
 
 
+def cost(row: dict[str, str]) -> float:
+    """The processor time of a run in s; infinite where it is not known."""
+    return float(row.get("cpu-s") or "inf")
+
+
 def cheapest(rows: list[dict[str, str]]) -> tuple[int, dict[str, str]]:
     """Number and row of the complete run with the least processor time."""
     complete = [(index, row) for index, row in enumerate(rows, start=1) if row["status"] == "done"]
-    return min(complete, key=lambda run: float(run[1]["cpu-s"]))
+    return min(complete, key=lambda run: cost(run[1]))
 
 
 def tolerance(row: dict[str, str], name: str, relative: float) -> float:
@@ -72,7 +77,7 @@ def check(root: Path, program: str, studies: dict[str, dict], limit: float, jobs
     costs = {}
     for name in studies:
         rows = gallery_results.rows_of(root / gallery_results.RESULTS / f"{name}.csv")
-        costs[name] = float(cheapest(rows)[1]["cpu-s"])
+        costs[name] = cost(cheapest(rows)[1])
     chosen = sorted((name for name in studies if costs[name] < limit), key=costs.get, reverse=True)
     print(f"{len(chosen)} of {len(studies)} studies, a run each: {sum(costs[name] for name in chosen):.0f} s of processor time", flush=True)
     with ThreadPoolExecutor(jobs) as pool:
