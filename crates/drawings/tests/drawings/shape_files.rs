@@ -45,12 +45,13 @@ fn narrowest_throats_of_the_shipped_geometries_are_as_their_comments_say() {
         let gaps = pairs.map(|(a, b)| (Vec2::from(a.center) - Vec2::from(b.center)).norm() - a.radius - b.radius);
         gaps.fold(f64::INFINITY, f64::min)
     };
-    for (file, width) in
-        [("four-discs", None), ("two-discs", None), ("throat", Some(5.0e-4)), ("cosine-throat", Some(3.0e-4))]
+    for (file, at_least) in
+        [("four-discs", 40e-6), ("small-pack", 50e-6), ("wide-pack", 80e-6), ("pore-pack", 65e-6), ("long-pack", 80e-6)]
     {
         let path = repository(&format!("geometries/{file}.toml"));
         let spec = meniscus_case::load_shapes(&path, &Options::default()).unwrap().spec;
-        let width = width.unwrap_or_else(|| gap(&spec.shapes));
+        let width = gap(&spec.shapes);
+        assert!(width > at_least * (1.0 - 1e-6), "{file}: {width:e}");
         let g = Geometry::new(&spec).unwrap();
         let found = g.narrowest_throat().unwrap().width;
         assert!((found - width).abs() < 1e-6 * width, "{file}: {found:e}");
