@@ -119,7 +119,9 @@ fn filled(network: &Network, motion: &Motion, angle: f64, shapes: usize) -> (Dis
 #[test]
 fn a_channel_is_entered_at_the_curvature_of_its_mouth_whatever_lies_behind_the_chamber() {
     for (radii, halves) in [([1.0, 0.8, 1.0], [0.3, 0.2]), ([0.9, 0.8, 1.1], [0.7, 0.5])] {
-        for outer in [0.5, 0.85, 0.999 * f64::min(radii[0], radii[2])] {
+        // Beside the widest channels half a disc remains of the outer chambers.
+        let [least, most] = [f64::min(radii[0], radii[2]), f64::max(radii[0], radii[2])];
+        for outer in [0.5, 0.85, 0.999 * least, 1.1 * most] {
             let chain = chain(radii, halves, outer);
             for motion in [STILL].iter().chain(&MOTIONS) {
                 let geometry = chain.geometry(motion);
@@ -136,8 +138,10 @@ fn a_channel_is_entered_at_the_curvature_of_its_mouth_whatever_lies_behind_the_c
                             (x - 3.5 - 3.0 * k as f64).abs() < 0.7 && (p - q).norm() < 2.001 * halves[k]
                         };
                         let throat = (0..network.throats.len()).find(is_between).unwrap();
-                        // The larger one of both directions.
-                        let expected = mouth(halves[k], radii[k], angle).max(mouth(halves[k], radii[k + 1], angle));
+                        // The larger one of both directions; half a disc ends at corners of its own.
+                        let ahead = mouth(halves[k], radii[k], angle).max(mouth(halves[k], radii[k + 1], angle));
+                        let corners = FRAC_PI_2.min(std::f64::consts::PI - angle).sin() / radii[2 * k];
+                        let expected = if outer > most { ahead.max(corners) } else { ahead };
                         let found = entered[throat] * motion.scale;
                         assert!(
                             (found - expected).abs() < 1e-9 / halves[k],
