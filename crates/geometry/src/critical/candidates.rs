@@ -32,6 +32,9 @@ pub struct Pair {
 pub(crate) struct Triple {
     /// The pieces and their images.
     pub(crate) walls: [(usize, Shift); 3],
+    /// For a piece that stands for one of its ends alone, the parameter of that. Both ends of a concave arc may be nearest wall points, of which the arc
+    /// itself offers only one.
+    pub(crate) ends: [Option<f64>; 3],
     /// Starting point in m.
     pub(crate) start: Vec2,
 }
@@ -114,7 +117,7 @@ fn divide(walls: &Walls, k: usize, [from, to]: [f64; 2], density: f64, found: &m
 struct Sample {
     wall: usize,
     shift: Shift,
-    at_start: bool,
+    u: f64,
     point: Vec2,
 }
 
@@ -129,7 +132,7 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
             let point = curve.point(u);
             let outside = (0..2).any(|i| walls.periodic[i] && (point[i] < near.min[i] || point[i] > near.max[i]));
             if !outside {
-                all.push(Sample { wall, shift, at_start: u == 0.0, point });
+                all.push(Sample { wall, shift, u, point });
             }
         }
     }
@@ -154,16 +157,22 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
                 add_pairs(walls, &samples[e], &samples[(e + 1) % 3], &mut pairs);
             }
         }
-        let [a, b, c] = samples.map(|s| (s.wall, s.shift));
-        if a != b && b != c && a != c {
-            let center = circumcenter(samples.map(|s| s.point));
-            // Only maxima within the domain count; those near its sides may move into it.
-            if center.is_some_and(|x| walls.domain.grown(0.5 * margin).contains(x)) {
-                triples.extend(center.map(|start| Triple { walls: [a, b, c], start }));
-            }
+        let center = circumcenter(samples.map(|s| s.point));
+        // Only maxima within the domain count; those near its sides may move into it.
+        if let Some(start) = center.filter(|x| walls.domain.grown(0.5 * margin).contains(*x)) {
+            let of = samples.map(|s| (s.wall, s.shift));
+            let ends = samples.map(|s| walls.end_of_concave_arc(s.wall, s.u));
+            triples.extend(distinct(Triple { walls: of, ends: [None; 3], start }));
+            triples.extend(distinct(Triple { walls: of, ends, start }).filter(|_| ends != [None; 3]));
         }
     }
     (pairs, triples)
+}
+
+/// A triple if its pieces, or their ends, are three.
+fn distinct(triple: Triple) -> Option<Triple> {
+    let [a, b, c] = [0, 1, 2].map(|k| (triple.walls[k], triple.ends[k]));
+    (a != b && b != c && a != c).then_some(triple)
 }
 
 /// All pairs of some images of pieces.
@@ -206,7 +215,7 @@ pub(super) fn pair(walls: &Walls, p: (usize, Shift), q: (usize, Shift), between:
 }
 
 fn pieces(walls: &Walls, sample: &Sample) -> impl Iterator<Item = (usize, Shift)> + use<> {
-    let before = walls.walls[sample.wall].before.filter(|_| sample.at_start);
+    let before = walls.walls[sample.wall].before.filter(|_| sample.u == 0.0);
     let shift = sample.shift;
     std::iter::once((sample.wall, shift)).chain(before.map(|link| (link.wall, plus(shift, link.shift))))
 }

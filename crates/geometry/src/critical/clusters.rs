@@ -201,7 +201,8 @@ fn between_all(walls: &Walls, x: Vec2) -> Vec<Maximum> {
     for a in 0..around.len() {
         for b in a + 1..around.len() {
             for c in b + 1..around.len() {
-                found.extend(maximum(walls, &Triple { walls: [around[a], around[b], around[c]], start: x }));
+                let of = [around[a], around[b], around[c]];
+                found.extend(maximum(walls, &Triple { walls: of, ends: [None; 3], start: x }));
             }
         }
     }

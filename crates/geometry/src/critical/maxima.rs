@@ -46,10 +46,11 @@ pub(crate) fn parallel_walls(walls: &Walls, at: &Maximum) -> Option<[Contact; 2]
 
 /// The point of equal distance from three walls near a candidate, if no other wall is nearer.
 pub(crate) fn between_three(walls: &Walls, triple: &Triple) -> Option<Maximum> {
-    let mut of = triple.walls;
+    let (mut of, mut ends) = (triple.walls, triple.ends);
+    let with_ends = ends != [None; 3];
     let mut x = triple.start;
     for _ in 0..EXCHANGES {
-        let (center, closest_points) = equidistant(walls, &of, x)?;
+        let (center, closest_points) = equidistant(walls, &of, &ends, x)?;
         x = center;
         let radius = (closest_points[0] - x).norm();
         if !walls.is_within(x) || radius <= walls.tolerance {
@@ -64,10 +65,11 @@ pub(crate) fn between_three(walls: &Walls, triple: &Triple) -> Option<Maximum> {
         let v = nearest.point - x;
         let beside = |i: &usize| -(closest_points[*i] - x).dot(&v) / (closest_points[*i] - x).norm();
         let replaced = (0..3).min_by(|i, j| beside(i).total_cmp(&beside(j)))?;
-        if of[replaced] == (nearest.wall, nearest.shift) {
+        let end = walls.end_of_concave_arc(nearest.wall, nearest.u).filter(|_| with_ends);
+        if (of[replaced], ends[replaced]) == ((nearest.wall, nearest.shift), end) {
             return None;
         }
-        of[replaced] = (nearest.wall, nearest.shift);
+        (of[replaced], ends[replaced]) = ((nearest.wall, nearest.shift), end);
     }
     None
 }
@@ -130,11 +132,22 @@ fn surrounded(directions: &[(Vec2, bool)]) -> bool {
 }
 
 /// The point near `x` that is equidistant from three walls, and the nearest points there.
-fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(Vec2, [Vec2; 3])> {
+fn equidistant(
+    walls: &Walls,
+    of: &[(usize, Shift); 3],
+    ends: &[Option<f64>; 3],
+    mut x: Vec2,
+) -> Option<(Vec2, [Vec2; 3])> {
+    let all_closest = |x: Vec2| {
+        [0, 1, 2].map(|k| match (of[k], ends[k]) {
+            ((wall, shift), Some(u)) => walls.curve(wall, shift).point(u),
+            ((wall, shift), None) => closest(walls, of, wall, shift, x),
+        })
+    };
     let farthest = walls.domain.size().norm();
     let begin = x;
     for _ in 0..NEWTON_STEPS {
-        let closest_points = of.map(|(wall, shift)| closest(walls, of, wall, shift, x));
+        let closest_points = all_closest(x);
         let d = closest_points.map(|closest| (x - closest).norm());
         if d.contains(&0.0) {
             return None;
@@ -155,11 +168,11 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
             return None;
         }
         if length <= 1e-15 * farthest + 1e-14 * d[0] {
-            let closest_points = of.map(|(wall, shift)| closest(walls, of, wall, shift, x));
+            let closest_points = all_closest(x);
             return Some((x, closest_points));
         }
     }
-    let closest_points = of.map(|(wall, shift)| closest(walls, of, wall, shift, x));
+    let closest_points = all_closest(x);
     let d = closest_points.map(|closest| (x - closest).norm());
     let spread = d.iter().fold(0.0_f64, |most, other| most.max((other - d[0]).abs()));
     (spread <= slack(walls, d[0])).then_some((x, closest_points))

@@ -199,12 +199,19 @@ impl Walls {
         self.index.nearest(y).map_or(f64::INFINITY, |found| (found.closest.point - y).norm())
     }
 
-    /// The nearest points of all pieces within `reach` (m) of `x`, in the order of the pieces; each vertex once.
+    /// The nearest points of all pieces within `reach` (m) of `x`, both ends of a concave arc, in the order of the pieces; each vertex once.
     pub(crate) fn contacts(&self, x: Vec2, reach: f64) -> Vec<Contact> {
         let (y, shift) = self.wrapped(x);
-        let within = self.index.within(y, reach);
-        let mut found: Vec<Contact> =
-            within.map(|near| self.contact(near.piece, near.closest.u, near.closest.point, shift)).collect();
+        let within = self.index.within(y, reach).flat_map(|near| {
+            let (wall, own) = self.images[near.piece];
+            let u = self.snapped(&self.walls[wall].curve, near.closest.u);
+            let end = self.end_of_concave_arc(wall, u);
+            let other = end.map(|u| 1.0 - u).map(|u| (u, self.curve(wall, own).point(u)));
+            let is_near = |at: &(usize, f64, Vec2)| (at.2 - y).norm() <= reach;
+            let other = other.map(|(u, point)| (near.piece, u, point)).filter(is_near);
+            std::iter::once((near.piece, u, near.closest.point)).chain(other)
+        });
+        let mut found: Vec<Contact> = within.map(|(piece, u, point)| self.contact(piece, u, point, shift)).collect();
         found.sort_by(|a, b| (a.wall, a.shift).cmp(&(b.wall, b.shift)).then(a.u.total_cmp(&b.u)));
         found.dedup_by(|a, b| (a.wall, a.shift, a.u) == (b.wall, b.shift, b.u));
         found
@@ -280,6 +287,14 @@ impl Walls {
             }
             _ => contact,
         }
+    }
+
+    /// The parameter `u` of a piece if it is an end of the piece where a concave arc ends or starts.
+    pub(crate) fn end_of_concave_arc(&self, wall: usize, u: f64) -> Option<f64> {
+        let is_concave = |wall: usize| matches!(self.walls[wall].curve, Curve::Arc { sweep, .. } if sweep < 0.0);
+        let is_end = !self.walls[wall].curve.is_closed() && (u == 0.0 || u == 1.0);
+        let before = self.walls[wall].before.filter(|_| u == 0.0);
+        (is_end && (is_concave(wall) || before.is_some_and(|link| is_concave(link.wall)))).then_some(u)
     }
 
     /// The pieces that end and start at a contact: the same one within a piece, `None` where a wall is cut.

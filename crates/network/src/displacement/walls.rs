@@ -1,16 +1,16 @@
 //! The walls along which a meniscus advances through a gate, and the walls ahead that it may touch.
 //!
 //! Behind and ahead of the gate a contact line can follow the wall up to the next concave corner, where it meets another wall, and up to the
-//! widest point of the pore on a concave arc. If the next gate leads to a third wall, a convex wall is followed past it by up to half a turn:
+//! widest point of the pore on a concave arc: that nearest to its center, or, where the arc is about this center, that abreast of it. If the next gate leads to a third wall, a convex wall is followed past it by up to half a turn:
 //! menisci above 90 degrees burst with contacts far ahead. If it leads back to the other wall of the same passage, the next throat between
 //! both begins, and the wall ends for this one. Positions are in the frame of the element that the meniscus enters.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::loops::turn;
+use super::loops::{Crossing, turn};
 use super::mesh::Mesh;
 use crate::graph::WallPiece;
-use meniscus_core::math::Vec2;
+use meniscus_core::math::{Vec2, perpendicular};
 use meniscus_geometry::curve::Curve;
 
 /// Rounding error, in rad, of right turns of a smooth wall.
@@ -78,6 +78,8 @@ fn ends(mesh: &Mesh, index: usize, slot: usize, center: Vec2) -> Ends {
     let part = &mesh.loops[index];
     let count = part.walls.len();
     let next = (slot + 1) % count;
+    let Crossing { from, to, .. } = part.crossings[slot];
+    let widest = Widest { center, into: -perpendicular(to - from) };
     let mut others: Vec<WallPiece> =
         (0..count).filter(|&k| k != slot && k != next).flat_map(|k| part.walls[k].iter().copied()).collect();
     let seams = (0..part.crossings.len()).flat_map(|k| [part.wall_before(k), part.wall_after(k)]);
@@ -92,7 +94,7 @@ fn ends(mesh: &Mesh, index: usize, slot: usize, center: Vec2) -> Ends {
         let follow_on = |wall: usize, backwards: bool| {
             let by = if backwards { part.wall_before(slot) } else { part.wall_after(slot) };
             let stretch: Vec<WallPiece> = part.walls[wall].iter().map(|piece| piece.shifted(by)).collect();
-            let mut followed = follow(&stretch, backwards, center);
+            let mut followed = follow(&stretch, backwards, &widest);
             if (count > 2 || goes_around) && followed.rest.is_empty() {
                 extend(mesh, index, wall, by, backwards, &mut followed.parts);
             }
@@ -102,7 +104,7 @@ fn ends(mesh: &Mesh, index: usize, slot: usize, center: Vec2) -> Ends {
     }
     // One wall all around: each side has its half.
     let (first, second) = halves(&part.walls[slot]);
-    Ends { before: follow(&second, true, center), after: follow(&first, false, center), others }
+    Ends { before: follow(&second, true, &widest), after: follow(&first, false, &widest), others }
 }
 
 /// Follows a wall past the gate at the end of its stretch, as long as it is convex and up to half a turn.
@@ -175,8 +177,39 @@ fn halves(wall: &[WallPiece]) -> (Vec<WallPiece>, Vec<WallPiece>) {
     (first, second)
 }
 
+/// Where a pore is widest, seen from a gate.
+struct Widest {
+    /// The center of its inscribed circle in m.
+    center: Vec2,
+    /// The direction through the gate into the pore.
+    into: Vec2,
+}
+
+impl Widest {
+    /// The parameter of a concave arc up to which the pore widens, for a wall followed forwards or backwards.
+    fn on(&self, arc: &Curve, backwards: bool) -> f64 {
+        // Distance of two centers over the radius below which they are one.
+        const SAME_CENTER: f64 = 1e-4;
+        // Fraction of an arc that is rounding.
+        const ROUNDING: f64 = 1e-9;
+        let Curve::Arc { center, radius, start, sweep } = *arc else { return arc.project(self.center).u };
+        if (center - self.center).norm() > SAME_CENTER * radius {
+            return arc.project(self.center).u;
+        }
+        // A wall on the left of the advance runs with it and turns to the right: abreast of the center it has the direction of the advance.
+        let abreast = (self.into.y.atan2(self.into.x) + FRAC_PI_2) + if backwards { PI } else { 0.0 };
+        let near = if backwards { start + sweep } else { start };
+        // The angle to turn from the near end of the arc until abreast, below 0 if that is behind.
+        let turned = (abreast - near) * if backwards { -sweep.signum() } else { sweep.signum() };
+        let ahead = (turned + PI).rem_euclid(TAU) - PI;
+        let share = (ahead / sweep.abs()).clamp(0.0, 1.0);
+        let share = if share < ROUNDING { 0.0 } else { share };
+        if backwards { 1.0 - share } else { share }
+    }
+}
+
 /// Follows a stretch of wall from its start, or backwards from its end.
-fn follow(wall: &[WallPiece], backwards: bool, center: Vec2) -> Followed {
+fn follow(wall: &[WallPiece], backwards: bool, widest: &Widest) -> Followed {
     let mut parts: Vec<WallPiece> = Vec::new();
     let order: Vec<usize> = if backwards { (0..wall.len()).rev().collect() } else { (0..wall.len()).collect() };
     for (step, &k) in order.iter().enumerate() {
@@ -190,7 +223,7 @@ fn follow(wall: &[WallPiece], backwards: bool, center: Vec2) -> Followed {
         }
         let is_concave = matches!(piece.curve, Curve::Arc { sweep, .. } if sweep < 0.0);
         if is_concave {
-            let widest = piece.curve.project(center).u;
+            let widest = widest.on(&piece.curve, backwards);
             let (kept, left) = if backwards { (widest < 1.0, widest > 0.0) } else { (widest > 0.0, widest < 1.0) };
             let part = |from: f64, to: f64| WallPiece { curve: piece.curve.part(from, to), ..piece };
             if kept {

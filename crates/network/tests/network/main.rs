@@ -17,6 +17,7 @@ mod support {
 mod arrays;
 mod ball_and_stick;
 mod cases;
+mod chambers;
 mod channels;
 mod corners;
 mod dead_ends;

@@ -204,7 +204,9 @@ impl Walls {
         let (l, r) = (&self.left[i], &self.right[j]);
         let mix = |a: f64, b: f64| a + (b - a) * share;
         let (s, t) = (mix(start.left.1, end.left.1), mix(start.right.1, end.right.1));
-        if (end.left.1 - start.left.1).abs() >= (end.right.1 - start.right.1).abs() {
+        if is_one_circle(l, r) {
+            Contacts { left: (i, s), right: (j, t) }
+        } else if (end.left.1 - start.left.1).abs() >= (end.right.1 - start.right.1).abs() {
             let t = r.answer(l.point(s), l.direction(s)).unwrap_or(t);
             Contacts { left: (i, s), right: (j, held(t, start.right.1, end.right.1)) }
         } else {
@@ -240,6 +242,9 @@ impl Walls {
     /// The signs of both contacts' motion along the path: the level line of F = μ_l + μ_r − 2 ψ − π, with F > 0 on the side of its left contact.
     fn motion(&self, contacts: Contacts, sense: Sense) -> (f64, f64) {
         let (l, r) = (&self.left[contacts.left.0], &self.right[contacts.right.0]);
+        if is_one_circle(l, r) {
+            return if sense == Sense::Forward { (1.0, 1.0) } else { (-1.0, -1.0) };
+        }
         let d = r.point(contacts.right.1) - l.point(contacts.left.1);
         let ((p, turn_l), (q, turn_r)) = (l.rates(contacts.left.1), r.rates(contacts.right.1));
         let square = d.norm_squared();
@@ -257,6 +262,9 @@ impl Walls {
         let (l, r) = (&self.left[i], &self.right[j]);
         let far = |sign: f64| if sign > 0.0 { 1.0 } else { 0.0 };
         let (s_far, t_far) = (far(cell.signs.0), far(cell.signs.1));
+        if is_one_circle(l, r) {
+            return Some(self.station(Contacts { left: (i, s_far), right: (j, t_far) }));
+        }
         let t_there = r.answer(l.point(s_far), l.direction(s_far));
         let s_there = l.answer(r.point(t_far), r.direction(t_far));
         // The distance by which an answer lies outside the rest of the piece.
@@ -280,6 +288,9 @@ impl Walls {
     fn extremes(&self, cell: &Cell, exit: &Station) -> [Option<Station>; 2] {
         let Contacts { left: (i, s0), right: (j, t0) } = cell.contacts;
         let ((_, s1), (_, t1)) = (exit.contacts.left, exit.contacts.right);
+        if is_one_circle(&self.left[i], &self.right[j]) {
+            return [None, None];
+        }
         extreme_circles(&self.left[i], &self.right[j]).map(|circle| {
             let contacts = self.contacts((i, j), &circle?)?;
             let (s, t) = (contacts.left.1, contacts.right.1);
@@ -316,6 +327,19 @@ impl Cell {
             + self.signs.1.signum() * (a.contacts.right.1 - b.contacts.right.1)
             > 0.0
     }
+}
+
+/// Whether two pieces are arcs of one circle with one contact angle: a meniscus meets both at that angle wherever its contacts are, and its curvature depends on
+/// their distance alone. Its contacts are taken to reach the ends of both at once.
+fn is_one_circle(l: &Piece, r: &Piece) -> bool {
+    // Rounding of centers, radii and angles.
+    const ROUNDING: f64 = 1e-9;
+    let (Shape::Turn { center, radius }, Shape::Turn { center: other, radius: size }) = (l.shape, r.shape) else {
+        return false;
+    };
+    let slack = ROUNDING * radius.abs();
+    let is_same = (center - other).norm() <= slack && (radius - size).abs() <= slack;
+    !l.is_edge() && !r.is_edge() && is_same && (l.angle - r.angle).abs() <= ROUNDING
 }
 
 /// The indices 0 to `len` ordered by their distance from `from`.
