@@ -12,6 +12,7 @@ mod chip;
 mod command_line;
 mod expectations;
 mod faults;
+mod marks;
 mod mirrored;
 mod movies;
-mod network_tutorial;
+mod pages;
