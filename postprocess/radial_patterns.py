@@ -1,10 +1,15 @@
-"""Patterns of a radial displacement over wettability and rate, of `studies/benchmark/radial-micromodel.toml`: for its layout of `gallery.py`.
+"""Patterns of a radial displacement over wettability and rate: table, and one map of patterns and pressures.
 
-At breakthrough: the share of the pores within the chip that is invaded, and the box dimension of the invaded pores, between 3 and 30 mm.
+Usage: radial_patterns.py DIR [--picture radial-patterns.webp]
+
+DIR is the folder of the study `studies/benchmark/radial-micromodel.toml`. At breakthrough: the share of the pores within the chip that is invaded, the mean width
+of fingers, and the box dimension of the invaded pores, between 3 and 30 mm.
 """
 
+import argparse
 import csv
 import io
+import math
 from pathlib import Path
 
 import matplotlib
@@ -34,13 +39,22 @@ def box_dimension(points: np.ndarray) -> float:
     return -float(np.polyfit(np.log(BOXES), np.log(counts), 1)[0])
 
 
-def pattern(directory: Path, row: dict[str, str]) -> dict[str, float]:
-    """Share of the pores that is invaded, and box dimension of the invaded ones."""
+def measure(directory: Path, row: dict[str, str]) -> dict[str, float]:
+    """The measures of a run."""
     pores = [pore for pore in rows(directory / "runs" / row["run"] / "pores.csv") if pore["outlet"] == "False"]
     area = np.array([float(pore["area_m2"]) for pore in pores])
     invaded = np.array([pore["phase"] == "wetting" for pore in pores])
     points = np.array([[float(pore["x_m"]), float(pore["y_m"])] for pore in pores])
-    return {"invaded-share": float(area[invaded].sum() / area.sum()), "box-dimension": box_dimension(points[invaded])}
+    return {
+        "angle": float(row["angle"]),
+        "rate": float(row["flow-rate"]),
+        "share": float(area[invaded].sum() / area.sum()),
+        "finger": float(row["finger-width-m"]),
+        "dimension": box_dimension(points[invaded]),
+        "largest": float(row["largest-pressure-difference-Pa"]),
+        "trapped": float(row["trapped-saturation"]),
+        "cpu": float(row.get("cpu-s") or math.nan),
+    }
 
 
 def polygons(directory: Path, run: str) -> list[np.ndarray]:
@@ -56,10 +70,8 @@ def polygons(directory: Path, run: str) -> list[np.ndarray]:
     return found
 
 
-def draw(directory: Path, to: Path) -> None:
+def picture(directory: Path, found: list[tuple[dict[str, str], dict[str, float]]], to: Path) -> None:
     """Patterns by angle (down) and rate (across), and pressures over the injected volume below."""
-    done = [row for row in rows(directory / "table.csv") if row["status"] == "done"]
-    found = [(row, {"rate": float(row["flow-rate"]), "angle": float(row["angle"])}) for row in done]
     rates = sorted({measures["rate"] for _, measures in found})
     angles = sorted({measures["angle"] for _, measures in found}, reverse=True)
     figure, axes = plt.subplots(len(angles) + 1, len(rates), figsize=(2.2 * len(rates), 1.85 * (len(angles) + 1)), layout="constrained")
@@ -84,3 +96,25 @@ def draw(directory: Path, to: Path) -> None:
     buffer = io.BytesIO()
     figure.savefig(buffer, dpi=110)
     Image.open(buffer).convert("RGB").save(to, quality=80)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=Path)
+    parser.add_argument("--picture", type=Path)
+    arguments = parser.parse_args()
+    done = [row for row in rows(arguments.directory / "table.csv") if row["status"] == "done"]
+    found = [(row, measure(arguments.directory, row)) for row in done]
+    rates = sorted({measures["rate"] for _, measures in found})
+    print("| angle through the water | " + " | ".join(f"{1e9 * rate:g} mm³/s" for rate in rates) + " |")
+    print("|---" * (1 + len(rates)) + "|")
+    for angle in sorted({measures["angle"] for _, measures in found}, reverse=True):
+        of = {measures["rate"]: measures for _, measures in found if measures["angle"] == angle}
+        cells = [f"{of[rate]['share']:.2f}, {1e3 * of[rate]['finger']:.1f} mm, {of[rate]['dimension']:.2f}" if rate in of else "–" for rate in rates]
+        print(f"| {angle:g} | " + " | ".join(cells) + " |")
+    if arguments.picture:
+        picture(arguments.directory, found, arguments.picture)
+
+
+if __name__ == "__main__":
+    main()
