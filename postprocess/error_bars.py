@@ -54,13 +54,18 @@ def slit(angle: float, spacing: float) -> Known:
 
 
 def throat(angle: float, spacing: float, radius: float = 1.0e-3, half: float = 1.25e-3) -> Known:
-    """A meniscus where its pressure is largest, between discs with centers at ±`half` (m); the fluid on the left, above 90 degrees on the
-    right, fills as much as with the arc around the middle of the throat."""
+    """A meniscus where its pressure is largest, between discs with centers at ±`half` (m).
+
+    The fluid on the left, above 90 degrees on the right, fills as much as with the arc around the middle of the throat.
+    """
     acute = math.radians(min(angle, 180.0 - angle))
     arc = root(lambda r: math.sqrt(radius**2 + r * r + 2 * radius * r * math.cos(acute)) - half, 0.0, 2.0 * half)
     contact = (arc * arc + half * half - radius**2) / (2.0 * half)
     edge = math.sqrt(max(arc * arc - contact * contact, 0.0))
-    pore = lambda x: half * x - 0.5 * (x * math.sqrt(radius**2 - x * x) + radius**2 * math.asin(x / radius))
+
+    def pore(x: float) -> float:
+        return half * x - 0.5 * (x * math.sqrt(radius**2 - x * x) + radius**2 * math.asin(x / radius))
+
     beyond = 0.5 * (arc * arc * math.acos(edge / arc) - edge * math.sqrt(arc * arc - edge * edge))
     start = root(lambda x: pore(x) - pore(edge) - beyond, 0.0, 0.999 * radius)
     side = 1.0 if angle <= 90.0 else -1.0

@@ -30,9 +30,7 @@ def measure(path: str | Path, length: float, time: float) -> dict:
     """Scaled: times, ways (a row per time), shapes (eta, f, time), and the series of contact line and slope."""
     directory = Path(path)
     times, ways, shapes = [], [], []
-    for frame, line in zip(
-        results.frames(directory / "particles.pvd"), results.frames(directory / "interface.pvd"), strict=True
-    ):
+    for frame, line in zip(results.frames(directory / "particles.pvd"), results.frames(directory / "interface.pvd"), strict=True):
         scaled = frame.time / time
         times.append(scaled)
         ways.append(np.asarray(results.read(frame.file).points)[:, 0] / length)

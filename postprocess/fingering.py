@@ -61,6 +61,7 @@ def draw(found: list[dict], directory: Path, picture: Path, seed: str) -> None:
 
 
 def main() -> None:
+    """Prints the table and draws the picture."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("dir", type=Path)
     parser.add_argument("--picture", type=Path, default=Path("fingering.png"))

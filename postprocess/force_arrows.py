@@ -10,10 +10,10 @@ the same one.
 import argparse
 from pathlib import Path
 
-import colors
 import matplotlib
 import numpy as np
 
+import colors
 import results
 
 matplotlib.use("Agg")

@@ -6,9 +6,11 @@ Usage: gallery.py run [NAME ...] [--program meniscus] [--out out/gallery] [--job
        gallery.py write [--check]
        gallery.py stamp NAME [NAME ...]
 
-A name is that of a study file; without names it is every study of a page. `run` tells how long it will take, does the studies, the longest first and `--jobs` at a time, and what `store` does: it stores their results in
-`docs/validation/results` and writes their figures and tables. Started again with the same `--out` it goes on where it was. `check` does the cheapest run of each study again and fails where a measure
-is not the stored one within its error bar (or, without one, within 0.1 % or the `tolerance` of the layout). `write` writes all tables from the stored results. `stamp` takes over an edit of a study or case that changes no number.
+A name is that of a study file; without names it is every study of a page. `run` tells how long it will take, does the studies, the longest first and
+`--jobs` at a time, and what `store` does: it stores their results in `docs/validation/results` and writes their figures and tables. Started again with the
+same `--out` it goes on where it was. `check` does the cheapest run of each study again and fails where a measure is not the stored one within its error bar
+(or, without one, within 0.1 % or the `tolerance` of the layout). `write` writes all tables from the stored results. `stamp` takes over an edit of a study or
+case that changes no number.
 
 A page shows a table between two comments:
 
@@ -41,10 +43,12 @@ Its layout is the table NAME in `docs/validation/results/tables.toml`:
 | `missed` | why the study misses expectations of a measure: `missed.MEASURE = "sentence"`; each one that is missed needs it |
 | `tolerance` | relative difference that `check` allows a measure: `tolerance.MEASURE = 0.1` |
 
-A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or of a column of the study's table, and arithmetic goes from left to
-right. ` ±` at the end of the format adds the error bar, that by the spacing included. A column without a head is named by its field.
+A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or of a column of the study's table, and
+arithmetic goes from left to right. ` ±` at the end of the format adds the error bar, that by the spacing included. A column without a head is named by its
+field.
 
-`write` also writes the table of all cases and studies with the sections that show them, between `<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
+`write` also writes the table of all cases and studies with the sections that show them, between `<!-- generated: cases and studies -->` and
+`<!-- end of generated -->`.
 """
 
 import argparse
@@ -161,7 +165,7 @@ def write(root: Path, check: bool = False) -> list[Path]:
         renewed = BLOCK.sub(lambda block: written(root, block, tables), text)
         if INDEX.search(text):
             body = "\n".join(index(root, lambda text: studies_of(text, tables)))
-            renewed = INDEX.sub(lambda found: f"{found[1]}\n{body}\n\n<!-- end of generated -->", renewed)
+            renewed = INDEX.sub(lambda found, body=body: f"{found[1]}\n{body}\n\n<!-- end of generated -->", renewed)
         if renewed != text:
             changed.append(page)
             if not check:

@@ -14,8 +14,9 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-import field_picture
 import matplotlib.pyplot as plt
+
+import field_picture
 import study_panel
 
 DPI = 100

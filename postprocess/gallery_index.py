@@ -29,11 +29,7 @@ def index(root: Path, shown_in: Callable[[str], list[str]]) -> list[str]:
     parts = sections(root)
     order = {address: number for number, (_, address, _) in reversed(list(enumerate(parts)))}
     nowhere = ("", "")
-    shown = {
-        study: (title, address)
-        for title, address, text in reversed(parts)
-        for study in shown_in(text)
-    }
+    shown = {study: (title, address) for title, address, text in reversed(parts) for study in shown_in(text)}
 
     def place(path: str) -> tuple[str, str]:
         if path.startswith("studies/") and Path(path).stem in shown:

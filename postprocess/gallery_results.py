@@ -7,8 +7,8 @@
     # 95cb6f22 rows
     run,spacing,status,rise-ratio,...,cpu-s
 
-Below the command, the number of runs and their processor time stand the expectations that are missed, checksums of the study, of the files that it names, of its
-figures and of the rows, and the rows of the table of the study with the processor time of each run in s. Measures have seven digits.
+Below the command, the number of runs and their processor time stand the expectations that are missed, checksums of the study, of the files that it names, of
+its figures and of the rows, and the rows of the table of the study with the processor time of each run in s. Measures have seven digits.
 """
 
 import csv

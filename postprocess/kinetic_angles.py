@@ -1,7 +1,8 @@
-"""Dynamic contact angles by molecular kinetic theory against two experiments in etched channels: the split of a flow at a crevice, and angles in curved channels.
+"""Dynamic contact angles by molecular kinetic theory: the split of a flow at a crevice, and angles in curved channels.
 
-Two tables for `gallery.py`: the share of the flow that enters the crevice, by balance of both menisci, for 24 conditions, and 31 angles in four channels by one law, fitted on the
-straight one. Both experiments: Zhang and others (2024). cos(theta) = cos(theta_0) - 2 k T/(sigma lambda^2) asinh(u/(2 kappa lambda)) (Blake and Haynes 1969).
+Two tables for `gallery.py`: the share of the flow that enters the crevice, by balance of both menisci, for 24 conditions, and 31 angles in four channels by
+one law, fitted on the straight one. Both experiments: Zhang and others (2024). cos(theta) = cos(theta_0) - 2 k T/(sigma lambda^2) asinh(u/(2 kappa lambda))
+(Blake and Haynes 1969).
 """
 
 import csv

@@ -9,14 +9,16 @@ import io
 import math
 from pathlib import Path
 
-import colors
 import matplotlib
+
+import colors
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-import results
 from PIL import Image
+
+import results
 
 # Width of a panel in inches, and pixels per inch.
 PANEL = 2.6

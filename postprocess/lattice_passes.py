@@ -8,6 +8,7 @@ import math
 from pathlib import Path
 
 import numpy as np
+
 import results
 
 # Radius over distance of the discs; distance in m over tension in N/m.

@@ -154,9 +154,7 @@ def compare(theirs: dict, ours: dict, count: int) -> dict:
 def rows(found: dict) -> list[tuple[str, str, str]]:
     """The table that is printed: what, meniscus, OpenPNM."""
     lines = [("pores", f"{found['pores']}", f"{found['pores']} + {found['boundary_pores']} boundary pores")]
-    lines.append(
-        ("throats", f"{found['throats']}", f"{found['throats']}, {found['parallel_throats']} of them beside another")
-    )
+    lines.append(("throats", f"{found['throats']}", f"{found['throats']}, {found['parallel_throats']} of them beside another"))
     if "pressure" in found:
         lines.append(("invaded pores", f"{found['invaded']}", f"{found['openpnm_invaded']}"))
         lines.append(("same invaded pores", "", "yes" if found["same_set"] else "no"))

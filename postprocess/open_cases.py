@@ -6,6 +6,7 @@ slip, a fluid above without viscosity, the wedge of Huh and Scriven (1971) with 
 
 import csv
 import functools
+import itertools
 import math
 from pathlib import Path
 
@@ -165,7 +166,7 @@ LENGTH, UNIT_SPEED, ANGLE = 1.5e-3, 0.2163, 60.0
 def resting_height(capillary_number: float, slip: float) -> float:
     """Height in capillary lengths of the lowest steady meniscus at the angle of the case; NaN if there is none."""
     found = steady_menisci(capillary_number, slip)
-    for (a, low), (b, high) in zip(found[:-1], found[1:], strict=True):
+    for (a, low), (b, high) in itertools.pairwise(found):
         if (a - ANGLE) * (b - ANGLE) <= 0.0:
             return low + (high - low) * (ANGLE - a) / (b - a)
     return math.nan
@@ -183,7 +184,7 @@ def bath_and_line(directory: Path, run: str) -> np.ndarray:
 
 
 def plate(directory: Path, row: dict[str, str]) -> dict[str, float]:
-    """The height of the line in capillary lengths beside that of lubrication theory, which ends at the fold, its rise, and how often liquid stays on the plate."""
+    """The height of the line beside that of lubrication theory, in capillary lengths, its rise, and how often liquid stays on the plate."""
     slip, number = float(row["slip"]) / LENGTH, float(row["speed"]) / UNIT_SPEED
     time, height = bath_and_line(directory, row["run"])
     late = time >= 0.75 * time[-1]

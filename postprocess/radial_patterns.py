@@ -2,8 +2,8 @@
 
 Usage: radial_patterns.py DIR [--picture radial-patterns.webp]
 
-DIR is the folder of the study `studies/benchmark/radial-micromodel.toml`. At breakthrough: the share of the pores within the chip that is invaded, the mean width
-of fingers, and the box dimension of the invaded pores, between 3 and 30 mm.
+DIR is the folder of the study `studies/benchmark/radial-micromodel.toml`. At breakthrough: the share of the pores within the chip that is invaded, the mean
+width of fingers, and the box dimension of the invaded pores, between 3 and 30 mm.
 """
 
 import argparse
@@ -99,6 +99,7 @@ def picture(directory: Path, found: list[tuple[dict[str, str], dict[str, float]]
 
 
 def main() -> None:
+    """Prints the table and draws the picture."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=Path)
     parser.add_argument("--picture", type=Path)

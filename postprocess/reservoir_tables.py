@@ -9,9 +9,11 @@ SGOF lists S_g, k_rg, k_rl and p_g - p_l by rising S_g.
 """
 
 import argparse
+import itertools
 from pathlib import Path
 
 import numpy as np
+
 from network_files import description, table
 
 # Pa in a bar, the unit of pressure in METRIC decks.
@@ -49,7 +51,7 @@ def measure(path: str | Path) -> dict:
     rows.sort()
     rows = [row for k, row in enumerate(rows) if k == 0 or row[0] - rows[k - 1][0] >= LEAST_STEP]
     # The conductance of a phase does not fall with its saturation, except by rounding.
-    for before, row in zip(rows, rows[1:], strict=False):
+    for before, row in itertools.pairwise(rows):
         row[1], row[2] = max(row[1], before[1]), min(row[2], before[2])
     return {"process": f"{process} {(half + 1) // 2}", "rows": rows}
 

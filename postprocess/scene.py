@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-import colors
 import numpy as np
 import pyvista as pv
 from matplotlib.colors import LinearSegmentedColormap
 
+import colors
 import results
 
 # Pixels of the longer side where nothing else is asked for.

@@ -13,11 +13,11 @@ overlap, or cross a side that is not periodic. Needs scipy and numpy, as in requ
 
 import argparse
 import json
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import tomllib
 from scipy import sparse
 from scipy.sparse import linalg
 
@@ -145,9 +145,7 @@ def main() -> None:
     """Prints permeabilities, and beside them those of networks."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("shapes", nargs="+", type=Path, help="shape files, or lists x y r")
-    parser.add_argument(
-        "--periodic", default="", choices=["", "x", "y", "xy"], help="axes along which sides are joined"
-    )
+    parser.add_argument("--periodic", default="", choices=["", "x", "y", "xy"], help="axes along which sides are joined")
     parser.add_argument("--open", default="", choices=["", "x", "y"], help="axis along which both sides are open")
     parser.add_argument("--box", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="corners in m of a list")
     parser.add_argument("--depth", type=float, help="distance of floor and lid in m")

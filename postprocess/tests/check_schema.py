@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 
 
 def main(schema: Path, cases: list[Path]) -> None:
+    """Validates the schema, and cases by it."""
     rules = json.loads(schema.read_text())
     Draft202012Validator.check_schema(rules)
     validator = Draft202012Validator(rules)

@@ -47,9 +47,7 @@ def by_vtk(path: Path) -> Arrays:
         for i in range(data.GetNumberOfArrays()):
             arrays[f"{data.GetArrayName(i)} on {place}"] = vtk_to_numpy(data.GetArray(i))
     topology = mesh.GetCells()
-    connectivity, offsets = (
-        vtk_to_numpy(array) for array in (topology.GetConnectivityArray(), topology.GetOffsetsArray())
-    )
+    connectivity, offsets = (vtk_to_numpy(array) for array in (topology.GetConnectivityArray(), topology.GetOffsetsArray()))
     return arrays | cells(connectivity, np.diff(offsets), vtk_to_numpy(mesh.GetCellTypes()))
 
 

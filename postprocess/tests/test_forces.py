@@ -34,9 +34,7 @@ class Forces(unittest.TestCase):
             directory = Path(temporary) / "out"
             synthetic.write(directory)
             found = force_arrows.measure(directory)
-            data = force_arrows.results.read(
-                force_arrows.results.frame_at(directory / "particles.pvd", None).file
-            ).point_data
+            data = force_arrows.results.read(force_arrows.results.frame_at(directory / "particles.pvd", None).file).point_data
             fluid = np.asarray(data["phase"]) < 2
             volume = np.asarray(data["volume"])[fluid]
             for name, total in found["sums"].items():

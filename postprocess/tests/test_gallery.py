@@ -164,9 +164,7 @@ class Gallery(unittest.TestCase):
         """Comments, titles and expectations do not count anyway."""
         before = self.stored()
         study = self.root / "studies/drop.toml"
-        study.write_text(
-            STUDY.replace("contact-angle-deg", "height-ratio").replace("A drop", "Drops"), encoding="utf-8"
-        )
+        study.write_text(STUDY.replace("contact-angle-deg", "height-ratio").replace("A drop", "Drops"), encoding="utf-8")
         self.assertEqual(self.stored(), before)
         (self.root / "cases/disc.toml").write_text("shapes = [1]\n", encoding="utf-8")
         gallery.stamp_again(self.root, "drop")
