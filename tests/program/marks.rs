@@ -81,8 +81,8 @@ fn marks_of(line: &str) -> Result<Vec<Mark>, String> {
     let mut marks = Vec::new();
     let mut rest = line;
     while let Some((before, after)) = rest.split_once("<!-- ") {
-        // A comment that is shown.
-        if before.ends_with('`') {
+        // Within code a comment is shown.
+        if line[..line.len() - after.len()].matches('`').count() % 2 == 1 {
             rest = after;
             continue;
         }
@@ -286,6 +286,7 @@ fn blocks_and_marks_of_a_page_are_found() {
     assert_eq!([&marks[0].quantity, &marks[1].quantity], ["share", "width-m"]);
     assert_eq!([marks[0].row.len(), marks[1].row.len()], [2, 0]);
     assert_eq!([marks[0].factor, marks[1].factor], [1.0, 1e3]);
+    assert_eq!(read("As in `5<!-- a: width-m -->`.").unwrap().1, []);
     for wrong in [
         "about<!-- a: width-m -->",
         "5<!-- a width-m -->",

@@ -114,6 +114,7 @@ impl Page {
 /// The number that a mark is about, in the output of a run or study.
 fn value(mark: &Mark, folder: &Path) -> f64 {
     let Some(table) = &mark.table else {
+        assert!(folder.join("report.json").is_file(), "no command of the page leaves a report: {mark:?}");
         let measure = &report(folder)["measures"][&mark.quantity];
         return measure["value"].as_f64().unwrap_or_else(|| panic!("no measure: {mark:?}"));
     };
