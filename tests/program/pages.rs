@@ -140,7 +140,7 @@ fn value(mark: &Mark, folder: &Path) -> f64 {
     let column =
         |name: &str| head.iter().position(|cell| cell == name).unwrap_or_else(|| panic!("no {name}: {mark:?}"));
     let is_meant = |row: &Vec<String>| mark.row.iter().all(|(name, value)| &row[column(name)] == value);
-    let row = lines.map(cells).filter(is_meant).last().unwrap_or_else(|| panic!("no row: {mark:?}"));
+    let row = lines.map(cells).rev().find(is_meant).unwrap_or_else(|| panic!("no row: {mark:?}"));
     row[column(&mark.quantity)].parse().unwrap_or_else(|_| panic!("no number: {mark:?}"))
 }
 
