@@ -6,6 +6,7 @@
 //! | `0.27<!-- chip: relative-permeability-non-wetting -->` | this measure of `out/chip`, rounded as on the page |
 //! | `1.5<!-- chip: width-m × 1e3 -->` | the measure times a factor |
 //! | `0.34<!-- angles/table.csv: residual-saturation process=drainage angle=40 -->` | a column in the last such row of a table |
+//! | `23.6<!-- results/drainage.csv: breakthrough-time-s velocity=0.033 spacing=8e-6 × 1e3 -->` | the same in a stored result |
 //! | `<!-- long -->` above a block `sh` | it runs too long to be tested |
 
 /// What a page has in blocks of code, in order.

@@ -12,6 +12,9 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// What the commands of pages read.
 const FOLDERS: [&str; 4] = ["cases", "geometries", "studies", "postprocess"];
 
+/// Stored results of long studies.
+const RESULTS: &str = "docs/validation/results";
+
 /// The words of a command line, in which double quotes hold words together.
 fn words(line: &str) -> Vec<&str> {
     let parts = line.split('"').enumerate();
@@ -98,7 +101,10 @@ impl Page {
             }
         }
         for mark in &self.marks {
-            let found = mark.factor * value(mark, &folder.path().join("out").join(&mark.folder));
+            let stored = mark.folder == "results" && mark.table.is_some();
+            let place =
+                if stored { Path::new(ROOT).join(RESULTS) } else { folder.path().join("out").join(&mark.folder) };
+            let found = mark.factor * value(mark, &place);
             assert!(rounds_to(found, &mark.told), "{}: {found}, and the page tells {mark:?}", self.name());
         }
         if self.name() == "network.md" {
@@ -111,6 +117,16 @@ impl Page {
     }
 }
 
+/// The cells of a line of a table; quotes hold commas.
+fn cells(line: &str) -> Vec<String> {
+    let mut quoted = false;
+    let ends = |c: char| {
+        quoted ^= c == '"';
+        c == ',' && !quoted
+    };
+    line.split(ends).map(str::to_owned).collect()
+}
+
 /// The number that a mark is about, in the output of a run or study.
 fn value(mark: &Mark, folder: &Path) -> f64 {
     let Some(table) = &mark.table else {
@@ -119,12 +135,12 @@ fn value(mark: &Mark, folder: &Path) -> f64 {
         return measure["value"].as_f64().unwrap_or_else(|| panic!("no measure: {mark:?}"));
     };
     let text = fs::read_to_string(folder.join(table)).unwrap();
-    let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
-    let head = cells(text.lines().next().unwrap());
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let head = cells(lines.next().unwrap());
     let column =
         |name: &str| head.iter().position(|cell| cell == name).unwrap_or_else(|| panic!("no {name}: {mark:?}"));
     let is_meant = |row: &Vec<String>| mark.row.iter().all(|(name, value)| &row[column(name)] == value);
-    let row = text.lines().skip(1).map(cells).filter(is_meant).last().unwrap_or_else(|| panic!("no row: {mark:?}"));
+    let row = lines.map(cells).rev().find(is_meant).unwrap_or_else(|| panic!("no row: {mark:?}"));
     row[column(&mark.quantity)].parse().unwrap_or_else(|_| panic!("no number: {mark:?}"))
 }
 
