@@ -74,12 +74,15 @@ def again(root: Path, program: str, name: str, settings: dict) -> list[str]:
 
 def check(root: Path, program: str, studies: dict[str, dict], limit: float, jobs: int) -> list[str]:
     """The differences of all studies whose cheapest run takes less than `limit` s of processor time."""
-    costs = {}
+    costs, lost = {}, []
     for name in studies:
-        rows = gallery_results.rows_of(root / gallery_results.RESULTS / f"{name}.csv")
-        costs[name] = cost(cheapest(rows)[1])
-    chosen = sorted((name for name in studies if costs[name] < limit), key=costs.get, reverse=True)
+        path = root / gallery_results.RESULTS / f"{name}.csv"
+        if path.is_file():
+            costs[name] = cost(cheapest(gallery_results.rows_of(path))[1])
+        else:
+            lost.append(f"{name}: not stored")
+    chosen = sorted((name for name in costs if costs[name] < limit), key=costs.get, reverse=True)
     print(f"{len(chosen)} of {len(studies)} studies, a run each: {sum(costs[name] for name in chosen):.0f} s of processor time", flush=True)
     with ThreadPoolExecutor(jobs) as pool:
         found = pool.map(lambda name: again(root, program, name, studies[name]), chosen)
-        return [line for lines in found for line in lines]
+        return lost + [line for lines in found for line in lines]

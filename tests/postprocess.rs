@@ -36,7 +36,7 @@ fn the_program_gives_the_stored_results_of_cheap_studies() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release --test postprocess -- --ignored; .ci/run does it"]
+#[ignore = "takes minutes: cargo test --release --test postprocess -- --ignored"]
 fn the_program_gives_the_stored_results_of_all_studies() {
     check_of_stored_results(&[]);
 }

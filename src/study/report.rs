@@ -18,7 +18,7 @@ use super::results::{RUN_NUMBERS, RunResult, RunState, measures, moving, results
 use super::run::PlannedRun;
 use super::table::{self, Table};
 use super::values::number_of;
-use super::verdict::{self, Judgment, judgments};
+use super::verdict::{Judgment, judgments};
 use super::wording::Wording;
 use crate::run::compare::CURVES;
 use crate::run::pressure_curves::{self, Overlaid};
@@ -146,7 +146,7 @@ pub(crate) fn report_of(
     atomic::write(&csv, &table::full(study, &results, &resolution).csv()?)?;
     atomic::write(&path("table.md"), table.markdown().as_bytes())?;
     if !judgments.is_empty() {
-        atomic::write(&path("expectations.csv"), &verdict::table(&judgments).csv()?)?;
+        atomic::write(&path("expectations.csv"), &expectations(&judgments).csv()?)?;
     }
     let mut curves = Vec::new();
     for (number, curve) in study.report.curves.iter().enumerate() {
@@ -188,6 +188,20 @@ pub(crate) fn report_of(
     let unknown = unknown(study, &results);
     let moving = moving(&results, &table::shown_measures(study, &results));
     Ok(StudyReport { moving, results, table, csv, judgments, convergences, unknown, page: page_path })
+}
+
+/// The table of judgments for other programs.
+fn expectations(judgments: &[Judgment]) -> Table {
+    Table::of(
+        judgments,
+        &[
+            ("run", &|judgment: &Judgment| judgment.of.clone()),
+            ("measure", &|judgment| judgment.measure.clone()),
+            ("expected", &|judgment| judgment.expected.clone()),
+            ("found", &|judgment| judgment.found.clone()),
+            ("verdict", &|judgment| judgment.verdict.word().to_lowercase()),
+        ],
+    )
 }
 
 /// Names that no run has; the measures of a run are known once it is complete.

@@ -3,7 +3,6 @@
 use super::convergence::{Convergence, convergences};
 use super::definition::{Expectation, Study, Trend};
 use super::results::RunResult;
-use super::table::Table;
 use super::values::shown;
 
 /// The outcome of an expectation.
@@ -56,20 +55,6 @@ pub(crate) fn judgments(study: &Study, results: &[RunResult]) -> Vec<Judgment> {
         convergences(study, trend, results).into_iter().map(|convergence| judge_trend(trend, &convergence))
     });
     single.chain(trends).collect()
-}
-
-/// The table of judgments for other programs.
-pub(crate) fn table(judgments: &[Judgment]) -> Table {
-    Table::of(
-        judgments,
-        &[
-            ("run", &|judgment: &Judgment| judgment.of.clone()),
-            ("measure", &|judgment| judgment.measure.clone()),
-            ("expected", &|judgment| judgment.expected.clone()),
-            ("found", &|judgment| judgment.found.clone()),
-            ("verdict", &|judgment| judgment.verdict.word().to_lowercase()),
-        ],
-    )
 }
 
 fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
