@@ -5,10 +5,11 @@ over the first amplitude to the linear solution, which the public reference take
 """
 
 import cmath
-import csv
 import math
 from collections import defaultdict
 from pathlib import Path
+
+from gallery_results import rows_of
 
 OTHERS = Path(__file__).parent / "public-benchmark.csv"
 OURS = "**meniscus**"
@@ -16,16 +17,10 @@ FLUIDS = {"water-air": "water and air", "gearoil-air": "gear oil and air", "oil_
 CELLS = (32, 64, 128)
 
 
-def others() -> list[dict[str, str]]:
-    """The rows of the other codes."""
-    with OTHERS.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def drops(runs: list[dict[str, str]], case: str) -> list[str]:
     """The table of a case with a drop: a row for each code, errors at 32, 64, 128 cells for each pair; then ranks and processor times."""
     errors = defaultdict(dict)
-    for row in others():
+    for row in rows_of(OTHERS):
         if row["case"] == case and int(row["cells"]) in CELLS:
             errors[row["solver"]][row["fluids"], int(row["cells"])] = float(row["largest_speed_error_m_per_s"])
     seconds = {}
@@ -65,7 +60,7 @@ def beside_others(results: dict[str, list[dict[str, str]]]) -> list[str]:
     """Speeds about travelling drops at 64 cells and angles on a tilted wall, in few numbers."""
     ours = {row["fluids"]: float(row["parasitic-speed-m-per-s"]) for row in results["translating-drop"] if float(row["cells"]) == 64}
     speeds = defaultdict(dict, {OURS: ours})
-    for row in others():
+    for row in rows_of(OTHERS):
         if row["case"] == "translating-drop" and int(row["cells"]) == 64:
             speeds[row["solver"]][row["fluids"]] = float(row["largest_speed_error_m_per_s"])
     wall = [row for row in results["tilted-wall"] if row["angle"] in ("30", "90", "150")]
@@ -135,8 +130,8 @@ def solved(rows: list[list[complex]]) -> list[complex]:
 
 def wave_error(directory: Path, row: dict[str, str], depth: float) -> float:
     """Root mean square difference of the amplitude to the linear solution, over the first amplitude."""
-    with (directory / "runs" / row["run"] / "series.csv").open(newline="", encoding="utf-8") as file:
-        series = [(float(line["time_s"]), float(line["wave_amplitude_m"])) for line in csv.DictReader(file)]
+    lines = rows_of(directory / "runs" / row["run"] / "series.csv")
+    series = [(float(line["time_s"]), float(line["wave_amplitude_m"])) for line in lines]
     fluids = [(float(row["density"]), float(row["viscosity"])), (float(row["other-density"]), float(row["other-viscosity"]))]
     k = 2.0 * math.pi / 2.6e-3
     first = series[0][1]
@@ -152,7 +147,7 @@ def wave_errors(directory: Path, row: dict[str, str]) -> dict[str, float]:
 def waves(results: dict[str, list[dict[str, str]]]) -> list[str]:
     """The table of waves: differences at 32, 64, 128 cells for each pair."""
     errors = defaultdict(dict)
-    for row in others():
+    for row in rows_of(OTHERS):
         if row["case"] == "wave" and int(row["cells"]) in CELLS and row["wave_rms_error"]:
             errors[row["solver"]][row["fluids"], int(row["cells"])] = float(row["wave_rms_error"])
     box, seconds = OURS + ", against the solution of the box", {}

@@ -94,8 +94,7 @@ def derived(settings: dict, directory: Path, row: dict[str, str]) -> dict[str, s
 
 def table_of(directory: Path, settings: dict) -> list[dict[str, str]]:
     """The rows of the table of a study folder, those of complete runs with further columns and the processor time in s."""
-    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(directory / "table.csv")
     for row in rows:
         if row["status"] == "done":
             report = json.loads((directory / "runs" / row["run"] / "report.json").read_text("utf-8"))
@@ -110,8 +109,7 @@ def missed(directory: Path) -> list[str]:
     path = directory / "expectations.csv"
     if not path.is_file():
         return []
-    with path.open(newline="", encoding="utf-8") as file:
-        judged = [row for row in csv.DictReader(file) if row["verdict"] == "missed"]
+    judged = [row for row in rows_of(path) if row["verdict"] == "missed"]
     return [f"{MISSED}{row['measure']}: {row['run']}: {row['expected']}, found {row['found']}" for row in judged]
 
 
@@ -164,7 +162,7 @@ def head_of(path: Path) -> list[str]:
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:
-    """The rows of a stored result."""
+    """The rows of a table in CSV, below lines of comments."""
     lines = path.read_text(encoding="utf-8").splitlines()
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 

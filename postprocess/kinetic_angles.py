@@ -5,11 +5,12 @@ one law, fitted on the straight one. Both experiments: Zhang and others (2024). 
 (Blake and Haynes 1969).
 """
 
-import csv
 import math
 from collections import defaultdict
 from pathlib import Path
 from typing import NamedTuple
+
+from gallery_results import rows_of
 
 SPLITS = Path(__file__).parent / "crevice-split.csv"
 ANGLES = Path(__file__).parent / "curved-channels.csv"
@@ -44,12 +45,6 @@ class Law(NamedTuple):
 CHANNELS = {"channel 1": Law(AT_REST, 0.81e-9, 756560.0), "channel 3": Law(AT_REST, 1.07e-9, 284860.0)}
 
 
-def rows(path: Path) -> list[dict[str, str]]:
-    """The rows of a table with comments."""
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
 def share(law: Law, upstream: float, width: float) -> float:
     """The share of the flow into a crevice of a width (m) at which both menisci have one capillary pressure, at an upstream speed in m/s."""
 
@@ -71,7 +66,7 @@ def split(_: dict) -> list[str]:
     lines = ["| crevice, edge in mm | upstream in mm/s | measured | " + " | ".join(f"jumps of {name}" for name in CHANNELS) + " |"]
     lines.append("|---" * (3 + len(CHANNELS)) + "|")
     met = dict.fromkeys(CHANNELS, 0)
-    for row in rows(SPLITS):
+    for row in rows_of(SPLITS):
         width, speed = float(row["crevice_width_mm"]) * 1e-3, float(row["u_upstream_mm_s"]) * 1e-3
         low, high = sorted((float(row["share_by_crevice_velocity"]), float(row["share_by_balance"])))
         found = {name: share(law, speed, width) for name, law in CHANNELS.items()}
@@ -81,7 +76,7 @@ def split(_: dict) -> list[str]:
         cells = [f"{value:.3f}" + ("" if is_met[name] else " (off)") for name, value in found.items()]
         place = f"{row['crevice_width_mm']}, {row['edge_radius_mm']}"
         lines.append(f"| {place} | {1e3 * speed:.3g} | {low:.3f} to {high:.3f} | " + " | ".join(cells) + " |")
-    lines.append("| within | | | " + " | ".join(f"{count} of {len(rows(SPLITS))}" for count in met.values()) + " |")
+    lines.append("| within | | | " + " | ".join(f"{count} of {len(rows_of(SPLITS))}" for count in met.values()) + " |")
     return lines
 
 
@@ -111,7 +106,7 @@ def fitted(of: list[dict[str, str]]) -> Law:
 def angles(_: dict) -> list[str]:
     """The law of the straight channel in all four."""
     channels = defaultdict(list)
-    for row in rows(ANGLES):
+    for row in rows_of(ANGLES):
         channels[row["channel"]].append(row)
     law = fitted(channels["straight"])
     lines = [f"static angle {law.static:.1f} degrees, jumps of {1e9 * law.jump:.2f} nm at {law.frequency:.3g}/s", ""]

@@ -4,7 +4,6 @@ Drops on a tilted wall, a small bubble at rest, and a plate drawn out of a bath,
 slip, a fluid above without viscosity, the wedge of Huh and Scriven (1971) with a free side, as in Chan, Snoeijer and Eggers (2012).
 """
 
-import csv
 import functools
 import itertools
 import math
@@ -18,6 +17,7 @@ import numpy as np
 
 import colors
 import results
+from gallery_results import rows_of
 
 # Degrees found, by degrees asked.
 BASILISK = {15: 46.7, 30: 39.1, 45: 43.2, 60: 58.9, 75: 72.8, 90: 86.6, 105: 98.0, 120: 116.3, 135: 133.8, 150: 141.1, 165: 130.9}
@@ -28,14 +28,13 @@ REPORTED = 2.3
 
 def runs(directory: Path) -> list[dict[str, str]]:
     """The finished runs of a study."""
-    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        return [row for row in csv.DictReader(file) if row["status"] == "done"]
+    return [row for row in rows_of(directory / "table.csv") if row["status"] == "done"]
 
 
 def series(directory: Path, run: str, columns: list[str]) -> np.ndarray:
     """Columns of the series of a run; empty fields are NaN."""
-    with (directory / "runs" / run / "series.csv").open(newline="", encoding="utf-8") as file:
-        return np.array([[float(row[name] or "nan") for name in columns] for row in csv.DictReader(file)]).T
+    rows = rows_of(directory / "runs" / run / "series.csv")
+    return np.array([[float(row[name] or "nan") for name in columns] for row in rows]).T
 
 
 def interface(directory: Path, run: str, time: float | None = None) -> list[np.ndarray]:

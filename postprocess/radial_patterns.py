@@ -7,7 +7,6 @@ width of fingers, and the box dimension of the invaded pores, between 3 and 30 m
 """
 
 import argparse
-import csv
 import io
 import math
 from pathlib import Path
@@ -22,15 +21,10 @@ from matplotlib.collections import PolyCollection
 from PIL import Image
 
 import colors
+from gallery_results import rows_of
 
 RADIUS = 0.09  # m, of the chip
 BOXES = np.geomspace(3.0e-3, 30.0e-3, 8)  # m
-
-
-def rows(path: Path) -> list[dict[str, str]]:
-    """The rows of a table."""
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def box_dimension(points: np.ndarray) -> float:
@@ -41,7 +35,7 @@ def box_dimension(points: np.ndarray) -> float:
 
 def measure(directory: Path, row: dict[str, str]) -> dict[str, float]:
     """The measures of a run."""
-    pores = [pore for pore in rows(directory / "runs" / row["run"] / "pores.csv") if pore["outlet"] == "False"]
+    pores = [pore for pore in rows_of(directory / "runs" / row["run"] / "pores.csv") if pore["outlet"] == "False"]
     area = np.array([float(pore["area_m2"]) for pore in pores])
     invaded = np.array([pore["phase"] == "wetting" for pore in pores])
     points = np.array([[float(pore["x_m"]), float(pore["y_m"])] for pore in pores])
@@ -87,7 +81,7 @@ def picture(directory: Path, found: list[tuple[dict[str, str], dict[str, float]]
             axis.set_title(f"{1e9 * measures['rate']:g} mm³/s")
         if across == 0:
             axis.set_ylabel(f"{measures['angle']:g}°")
-        series = rows(directory / "runs" / row["run"] / "series.csv")
+        series = rows_of(directory / "runs" / row["run"] / "series.csv")
         injected, pressure = (np.array([float(it[name]) for it in series[1:]]) for name in ("injected_pore_volumes", "pressure_difference_Pa"))
         axes[-1, across].plot(injected, pressure, color=shades[down], label=f"{measures['angle']:g}°", linewidth=1)
     axes[-1, len(rates) // 2].set_xlabel("injected volume over that of the pores and the rim")
@@ -104,7 +98,7 @@ def main() -> None:
     parser.add_argument("directory", type=Path)
     parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
-    done = [row for row in rows(arguments.directory / "table.csv") if row["status"] == "done"]
+    done = [row for row in rows_of(arguments.directory / "table.csv") if row["status"] == "done"]
     found = [(row, measure(arguments.directory, row)) for row in done]
     rates = sorted({measures["rate"] for _, measures in found})
     print("| angle through the water | " + " | ".join(f"{1e9 * rate:g} mm³/s" for rate in rates) + " |")

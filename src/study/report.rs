@@ -145,9 +145,7 @@ pub(crate) fn report_of(
     let csv = path(if uncertainty.is_some() { "samples.csv" } else { "table.csv" });
     atomic::write(&csv, &table::full(study, &results, &resolution).csv()?)?;
     atomic::write(&path("table.md"), table.markdown().as_bytes())?;
-    if !judgments.is_empty() {
-        atomic::write(&path("expectations.csv"), &expectations(&judgments).csv()?)?;
-    }
+    atomic::write(&path("expectations.csv"), &expectations(&judgments).csv()?)?;
     let mut curves = Vec::new();
     for (number, curve) in study.report.curves.iter().enumerate() {
         if let Some(text) = svg(curve, &results, &wording)? {

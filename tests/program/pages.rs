@@ -117,16 +117,6 @@ impl Page {
     }
 }
 
-/// The cells of a line of a table; quotes hold commas.
-fn cells(line: &str) -> Vec<String> {
-    let mut quoted = false;
-    let ends = |c: char| {
-        quoted ^= c == '"';
-        c == ',' && !quoted
-    };
-    line.split(ends).map(str::to_owned).collect()
-}
-
 /// The number that a mark is about, in the output of a run or study.
 fn value(mark: &Mark, folder: &Path) -> f64 {
     let Some(table) = &mark.table else {
@@ -134,13 +124,13 @@ fn value(mark: &Mark, folder: &Path) -> f64 {
         let measure = &report(folder)["measures"][&mark.quantity];
         return measure["value"].as_f64().unwrap_or_else(|| panic!("no measure: {mark:?}"));
     };
-    let text = fs::read_to_string(folder.join(table)).unwrap();
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let head = cells(lines.next().unwrap());
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(folder.join(table)).unwrap();
+    let head = reader.headers().unwrap().clone();
     let column =
         |name: &str| head.iter().position(|cell| cell == name).unwrap_or_else(|| panic!("no {name}: {mark:?}"));
-    let is_meant = |row: &Vec<String>| mark.row.iter().all(|(name, value)| &row[column(name)] == value);
-    let row = lines.map(cells).rev().find(is_meant).unwrap_or_else(|| panic!("no row: {mark:?}"));
+    let is_meant = |row: &csv::StringRecord| mark.row.iter().all(|(name, value)| &row[column(name)] == value);
+    let row =
+        reader.records().map(Result::unwrap).filter(is_meant).last().unwrap_or_else(|| panic!("no row: {mark:?}"));
     row[column(&mark.quantity)].parse().unwrap_or_else(|_| panic!("no number: {mark:?}"))
 }
 

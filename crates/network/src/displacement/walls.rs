@@ -1,9 +1,9 @@
 //! The walls along which a meniscus advances through a gate, and the walls ahead that it may touch.
 //!
 //! Behind and ahead of the gate a contact line can follow the wall up to the next concave corner, where it meets another wall, and up to the
-//! widest point of the pore on a concave arc: that nearest to its center, or, where the arc is about this center, that abreast of it. If the next gate leads to a third wall, a convex wall is followed past it by up to half a turn:
-//! menisci above 90 degrees burst with contacts far ahead. If it leads back to the other wall of the same passage, the next throat between
-//! both begins, and the wall ends for this one. Positions are in the frame of the element that the meniscus enters.
+//! widest point of the pore on a concave arc: that nearest to its center, or, where the arc is about this center, that abreast of it. If the
+//! next gate leads to a third wall, a convex wall is followed past it by up to half a turn: menisci above 90 degrees burst with contacts far
+//! ahead. If it leads back to the other wall of the same passage, the next throat between both begins, and the wall ends for this one. Positions are in the frame of the element that the meniscus enters.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -329,8 +329,8 @@ impl Cell {
     }
 }
 
-/// Whether two pieces are arcs of one circle with one contact angle: a meniscus meets both at that angle wherever its contacts are, and its curvature depends on
-/// their distance alone. Its contacts are taken to reach the ends of both at once.
+/// Whether two pieces are arcs of one circle with one contact angle: a meniscus meets both at that angle wherever its contacts are, and its
+/// curvature depends on their distance alone. Its contacts are taken to reach the ends of both at once.
 fn is_one_circle(l: &Piece, r: &Piece) -> bool {
     // Rounding of centers, radii and angles.
     const ROUNDING: f64 = 1e-9;
