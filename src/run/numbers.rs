@@ -82,14 +82,18 @@ pub(crate) fn expected_speed(case: &Case, length: Length) -> (f64, &'static str)
     }
 }
 
-/// The mean speeds in m/s prescribed at open sides.
+/// The largest mean speeds in m/s prescribed at open sides.
 fn given_speeds<'a>(case: &Case, sph: &'a Sph) -> impl Iterator<Item = f64> + use<'a> {
     let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
-    let given = sph.open.iter().enumerate().filter_map(|(number, open)| Some((number, open.as_ref()?.drive)));
-    given.map(move |(number, drive)| match drive {
+    let end = case.end;
+    let given = sph.open.iter().enumerate().filter_map(move |(number, open)| {
+        let open = open.as_ref()?;
+        Some((number, open.drive, open.acceleration.unwrap_or(0.0) * end))
+    });
+    given.map(move |(number, drive, rise)| match drive {
         Drive::Pressure(_) => 0.0,
-        Drive::Velocity(speed, _) => speed.abs(),
-        Drive::FlowRate(rate, _) => rate.abs() / sph.thickness() / size[1 - number / 2],
+        Drive::Velocity(speed, _) => speed.abs() + rise,
+        Drive::FlowRate(rate, _) => rate.abs() / sph.thickness() / size[1 - number / 2] + rise,
     })
 }
 
@@ -128,7 +132,7 @@ pub(crate) fn reached(
 ) -> Vec<Number> {
     let mut all = numbers(case, length, fastest);
     match &case.model {
-        Model::Sph(sph) => all.extend(of_inflow(case, sph, measured("inflow-m2-per-s"))),
+        Model::Sph(sph) => all.extend(of_inflow(case, sph, ["inflow-m2-per-s", "asked-inflow-m2-per-s"].map(measured))),
         Model::Network(network) => all.extend(of_network(case, network, measured)),
         Model::ThinFilm(_) => {}
     }
@@ -136,7 +140,7 @@ pub(crate) fn reached(
 }
 
 /// The viscosity ratio of two phases, and the capillary number of what enters through a side.
-fn of_inflow(case: &Case, sph: &Sph, inflow: Option<f64>) -> Vec<Number> {
+fn of_inflow(case: &Case, sph: &Sph, [inflow, asked]: [Option<f64>; 2]) -> Vec<Number> {
     let Some(other) = sph.non_wetting.filter(|_| sph.acting_tension() > 0.0) else { return Vec::new() };
     let mut all = vec![Number {
         symbol: "M",
@@ -153,15 +157,10 @@ fn of_inflow(case: &Case, sph: &Sph, inflow: Option<f64>) -> Vec<Number> {
         let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
         let (width, tension) = (size[1 - number / 2], sph.tension);
         let viscosity = if is_wetting { sph.wetting.viscosity } else { other.viscosity };
-        let asked = match open.drive {
-            Drive::Pressure(_) => None,
-            Drive::Velocity(speed, _) => Some(speed.abs()),
-            Drive::FlowRate(rate, _) => Some(rate.abs() / sph.thickness() / width),
-        };
         all.push(Number {
             symbol: "Ca_in",
             value: viscosity * inflow / width / tension,
-            asked: asked.map(|speed| viscosity * speed / tension),
+            asked: asked.map(|rate| viscosity * rate / width / tension),
             formula: "mu U / sigma of the entering phase, U the inflow over the width of its side",
         });
     }

@@ -238,8 +238,14 @@ groups! {
         "drag-over-largest-retention",
         // Net drag minus the retention with the angles at the wall, over the tension
         "momentum-balance-error",
-        // First time at which less than one spacing of wall was wetted
+        // First time at which no particle of the largest connected part of the wetting phase was within a spacing of a wall
         "detachment-time-s",
+        // Viscosity of the other phase times the prescribed mean velocity at that time, over the tension
+        "detachment-capillary-number",
+        // The same at the first time with more connected parts of the wetting phase of at least 20 particles than at time zero
+        "break-up-capillary-number",
+        // Share of the largest connected part in the wetting phase at the end
+        "largest-part-share",
     ],
     /// Exponent of the base width of a spreading drop.
     pub spreading: [

@@ -29,6 +29,8 @@ tables! {
         pub velocity: f64 => Key::positive("a mean velocity inwards in m/s"),
         /// Inward flow rate per meter of depth in m²/s, with `geometry.depth` that of the chip in m³/s.
         pub flow_rate: Rate => Key::positive("a flow rate inwards in m2/s, or in m3/s with geometry.depth"),
+        /// Rate at which the mean velocity rises in m/s² (default 0).
+        pub acceleration: f64 => Key::not_negative("the rise of the mean velocity per time in m/s2"),
         /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
         pub profile: Profile,
         /// Phase that enters (default: the phase there at time zero).
@@ -65,6 +67,9 @@ pub struct Open {
     pub enters_wetting: Option<bool>,
     /// Steps of a prescribed pressure.
     pub pressure_steps: Option<PressureSteps>,
+    /// Rate in m/s² at which a prescribed mean velocity rises.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<f64>,
 }
 
 /// The prescribed quantity at an open side.
@@ -172,7 +177,7 @@ fn side(checker: &mut Checker, name: &str, kind: Side, table: &mut Option<RawOpe
         return None;
     }
     let raw = table.get_or_insert_default();
-    let has_profile = raw.profile.is_some();
+    let (has_profile, acceleration) = (raw.profile.is_some(), raw.acceleration);
     let drive = match (raw.velocity, raw.flow_rate) {
         (Some(velocity), _) => Drive::Velocity(velocity, *raw.profile.get_or_insert(Profile::Plug)),
         (_, Some(rate)) => Drive::FlowRate(rate.value(), *raw.profile.get_or_insert(Profile::Plug)),
@@ -185,8 +190,16 @@ fn side(checker: &mut Checker, name: &str, kind: Side, table: &mut Option<RawOpe
             "at a given pressure the profile is a result; leave this out",
         );
     }
+    if acceleration.is_some() && !given[1] && !given[2] {
+        checker.refuse(
+            format!("{path}.acceleration"),
+            "a velocity that rises needs an initial value",
+            "give velocity = ... in m/s or flow-rate = ... instead of a pressure, or leave this out",
+        );
+    }
     let pressure_steps = pressure_steps(checker, &path, raw, given[0]);
-    Some(Open { drive, enters_wetting: raw.phase.map(|phase| phase == FluidPhase::Wetting), pressure_steps })
+    let enters_wetting = raw.phase.map(|phase| phase == FluidPhase::Wetting);
+    Some(Open { drive, enters_wetting, pressure_steps, acceleration })
 }
 
 fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide, has_pressure: bool) -> Option<PressureSteps> {

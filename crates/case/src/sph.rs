@@ -48,16 +48,18 @@ tables! {
         pub initial: RawInitial,
         /// Parameters of the method, which rarely need a change.
         pub numerics: RawNumerics,
-        /// Criterion that ends a displacement before `time.end`.
+        /// Criteria that end a run before `time.end`.
         pub stop: RawSphStop,
         /// Groups of measures for the report, one empty table each.
         pub measure: RawMeasures,
     }
 
-    /// Criterion that ends a displacement before `time.end`.
+    /// Criteria that end a run before `time.end`.
     pub(crate) struct RawSphStop {
         /// Ends when the entering phase passes another open side: 20 particles of it have left (default false).
         pub breakthrough: bool,
+        /// Ends when the largest connected part of the wetting phase is a spacing or more away from all walls (default false).
+        pub detachment: bool,
     }
 }
 
@@ -105,6 +107,9 @@ pub struct Sph {
     /// Whether the run ends when the entering phase has passed another open side.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub stop_at_breakthrough: bool,
+    /// Whether the run ends when the drop is off the walls.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub stop_at_detachment: bool,
     /// Groups of measures in addition to those of every run (`[sph.measure]`).
     pub measure: MeasureSet,
 }
@@ -180,6 +185,7 @@ pub(super) fn sph(
         None => Vec::new(),
     };
     let stop_at_breakthrough = stop_at_breakthrough(checker, raw.stop.as_ref(), &sides, two_phases);
+    let stop_at_detachment = stop_at_detachment(checker, raw.stop.as_ref(), two_phases);
     let raw_initial = raw.initial.get_or_insert_default();
     let initial = match raw_initial.network {
         Some(_) => initial::from_network(checker, raw_initial, two_phases, &sides, start),
@@ -215,6 +221,7 @@ pub(super) fn sph(
         initial: initial?,
         numerics,
         stop_at_breakthrough,
+        stop_at_detachment,
         measure,
     })
 }
@@ -228,6 +235,19 @@ fn stop_at_breakthrough(checker: &mut Checker, raw: Option<&RawSphStop>, sides: 
             "sph.stop.breakthrough",
             "breakthrough needs two phases, and an inlet and an outlet",
             "add them in [sph.phases] and [sph.sides], or leave this out",
+        );
+    }
+    stops
+}
+
+/// Whether a run ends when a drop leaves the walls, which needs two phases.
+fn stop_at_detachment(checker: &mut Checker, raw: Option<&RawSphStop>, two_phases: bool) -> bool {
+    let stops = raw.and_then(|stop| stop.detachment).unwrap_or(false);
+    if stops && !two_phases {
+        checker.refuse(
+            "sph.stop.detachment",
+            "a drop that leaves the walls needs two phases",
+            "add [sph.phases.non-wetting], or leave this out",
         );
     }
     stops

@@ -37,7 +37,7 @@ pub(crate) mod state;
 pub(crate) mod surface_force;
 pub mod terms;
 pub(crate) mod time_step;
-pub(crate) mod unresolved;
+pub mod unresolved;
 pub(crate) mod view;
 pub(crate) mod walls;
 pub(crate) mod warnings;

@@ -9,6 +9,7 @@ use crate::observe::Observation;
 use crate::output;
 use crate::particles::{Particles, relative_speed};
 use crate::stages::Stages;
+use crate::unresolved::wetted_by_largest_part;
 use crate::warnings::warnings;
 use meniscus_core::math::{Bounds, Vec2};
 use meniscus_core::snapshot::{Lines, Snapshot};
@@ -56,6 +57,8 @@ pub(crate) struct Surroundings {
     pub(crate) stages: Option<Stages>,
     /// Whether the run ends when the invading phase has passed another open side.
     pub(crate) stops_at_breakthrough: bool,
+    /// Whether the run ends when the drop is off the walls.
+    pub(crate) stops_at_detachment: bool,
     /// Spacing of grid nodes in m.
     pub(crate) grid_spacing: f64,
     /// If the flow started from the state of a network: the state that it returns.
@@ -152,7 +155,9 @@ impl Solver for SphSolver {
     }
 
     fn is_done(&self) -> bool {
-        self.surroundings.stops_at_breakthrough && has_passed(&self.flow)
+        let around = &self.surroundings;
+        (around.stops_at_breakthrough && has_passed(&self.flow))
+            || (around.stops_at_detachment && wetted_by_largest_part(&self.flow) == 0.0)
     }
 
     fn steps(&self) -> u64 {

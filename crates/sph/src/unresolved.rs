@@ -39,6 +39,22 @@ pub(crate) fn ganglia(flow: &Flow, phase: Phase) -> Vec<Blob> {
     blobs(points, volumes, &is_of(flow, phase), link, flow.config.domain.periods())
 }
 
+/// Length in m of the row of particles of the largest ganglion of the wetting phase that lie within a spacing of a wall; 0 for a drop off the walls.
+pub fn wetted_by_largest_part(flow: &Flow) -> f64 {
+    let (p, spacing) = (&flow.state.particles, flow.config.method.spacing);
+    let lengths = (0..p.fluids).map(|a| if flow.fields.bulk.wall_distance[a] < spacing { spacing } else { 0.0 });
+    let lengths: Vec<f64> = lengths.collect();
+    // Their sum over each ganglion is what it has instead of an area.
+    let of_wetting = is_of(flow, Phase::Wetting);
+    let parts = blobs(&p.position[..p.fluids], &lengths, &of_wetting, LINK * spacing, flow.config.domain.periods());
+    parts.iter().max_by_key(|part| part.count).map_or(0.0, |largest| largest.area)
+}
+
+/// Number of ganglia of the wetting phase with enough particles for a curvature.
+pub fn resolved_parts(wetting_pieces: &[Blob]) -> usize {
+    wetting_pieces.iter().filter(|ganglion| ganglion.count >= SMALLEST_PIECE).count()
+}
+
 /// Number of ganglia of either phase with too few particles for a curvature; `wetting_pieces` are the ganglia of the wetting phase.
 pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
     if smaller_phase(flow) == 0 {

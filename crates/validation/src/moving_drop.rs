@@ -17,6 +17,7 @@ use meniscus_sph::flow::Flow;
 use meniscus_sph::measures::{Columns, Subject, stream};
 use meniscus_sph::observe::Observation;
 use meniscus_sph::particles::Phase;
+use meniscus_sph::unresolved::{resolved_parts, wetted_by_largest_part};
 use meniscus_sph::wetting::lines::{TrackedLine, nearest};
 
 /// Fraction of the contour next to a line that is fitted, if the drop has advancing and receding lines, which the flow bends differently. A meniscus that
@@ -126,6 +127,8 @@ pub(super) fn columns(flow: &Flow, observation: &Observation) -> Columns {
         ("stream_pressure_N_per_m", stream.pressure),
         ("stream_friction_N_per_m", stream.friction),
         ("drop_momentum_kg_per_m_s", momentum.dot(&ends.ahead)),
+        ("largest_part_at_wall_m", wetted_by_largest_part(flow)),
+        ("resolved_parts", resolved_parts(&observation.wetting_blobs) as f64),
     ]
 }
 
@@ -168,11 +171,36 @@ pub(super) fn measures(s: &Subject) -> Vec<Measure> {
         measure("receding-capillary-number", -capillary(back.0), "").by(over).with_uncertainty(capillary(back.1)),
     ]);
     found.extend(force_balance::measures(s));
-    let gone =
-        s.series.column("time_s").zip(s.series.column("wetted_length_m")).find(|(_, length)| *length < m.spacing);
-    found.push(
-        measure("detachment-time-s", gone.map_or(f64::NAN, |(time, _)| time), "s")
-            .by("first record at which less wall than a spacing is wetted; not measured: the drop stays on the wall"),
-    );
+    found.extend(detachment(s));
     found
+}
+
+/// When the drop leaves the wall or breaks, and the capillary number of the stream then.
+fn detachment(s: &Subject) -> [Measure; 4] {
+    let (m, open) = (&s.flow.config.method, &s.flow.config.open);
+    let stream = |time: f64| {
+        let velocities = open.sides.iter().chain(&open.through).filter_map(|side| side.velocity_at(time));
+        m.other_fluid.viscosity * velocities.reduce(f64::max).unwrap_or(f64::NAN) / m.tension
+    };
+    let first = |column: &str, is_met: &dyn Fn(f64) -> bool| {
+        let found = s.series.column("time_s").zip(s.series.column(column)).find(|(_, value)| is_met(*value));
+        found.map_or(f64::NAN, |(time, _)| time)
+    };
+    let parts = s.series.column("resolved_parts").next().unwrap_or(f64::NAN);
+    let (gone, broken) =
+        (first("largest_part_at_wall_m", &|length| length == 0.0), first("resolved_parts", &|now| now > parts));
+    let off = "first record at which no particle of the largest connected part of the wetting phase lies within a spacing of a wall; not measured: \
+               the drop stays on the wall";
+    let over = "viscosity of the other phase times the given mean velocity at that record over the tension";
+    let of_all = s.observed.wetting_blobs.iter().map(|part| part.count).sum::<usize>() as f64;
+    let largest = s.observed.wetting_blobs.iter().map(|part| part.count).max().unwrap_or(0) as f64;
+    [
+        measure("detachment-time-s", gone, "s").by(off),
+        measure("detachment-capillary-number", stream(gone), "").by(format!("{over}, {off}")),
+        measure("break-up-capillary-number", stream(broken), "").by(format!(
+            "{over}, the first with more connected parts of the wetting phase of at least 20 particles than at time zero; not measured: there is none"
+        )),
+        measure("largest-part-share", largest / of_all, "")
+            .by("particles of the largest connected part of the wetting phase over all of them, at the end"),
+    ]
 }

@@ -229,13 +229,14 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
     let (open, fluxes, time) = (&flow.config.open, &flow.state.fluxes, flow.state.time);
     let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
     let through_open_side = |side: &OpenSide| {
-        let requested = side.given_pressure().is_none().then(|| side.flow_rate());
+        let requested = side.given_pressure().is_none().then(|| side.average_flow_rate(time));
         // Given velocities: by the displacements of the rows, since particle counts change by whole layers.
         let counted =
             || (count(&fluxes.inflow, side.number) - count(&fluxes.outflow, side.number)) * flow.config.method.volume;
         (if requested.is_some() { fluxes.passed[side.number] } else { counted() } / time, requested)
     };
-    let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
+    let through_period =
+        |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.average_flow_rate(time)));
     let rates = open.sides.iter().map(through_open_side).chain(flow.view().given_flows().map(through_period));
     let (mut came_in, mut requested_in, mut given_in) = (0.0, 0.0, 0.0);
     for (rate, requested) in rates {
@@ -246,7 +247,7 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
     let method = "net inflow of area over the sides with inflow, divided by the time since time zero";
     let mut found = vec![measure("inflow-m2-per-s", came_in, "m2/s").by(method)];
     if requested_in > 0.0 {
-        let method = "sum of the inward flow rates given in the case";
+        let method = "sum of the inward flow rates given in the case, on average over time";
         found.push(measure("asked-inflow-m2-per-s", requested_in, "m2/s").by(method));
         let method = "inflow through the sides with a given velocity or flow rate, over the requested one";
         found.push(measure("inflow-ratio", given_in / requested_in, "").by(method));

@@ -17,7 +17,7 @@ pub(crate) use buffer::{Around, exchange, fill, note_passed};
 pub(crate) use extrapolate::InteriorPoints;
 pub(crate) use pressure::Prescribed;
 pub(crate) use profile::{Opening, Profile, Shape, openings};
-pub use side::{DEPTH, Drive, OpenSide, Staircase};
+pub use side::{DEPTH, Drive, OpenSide, Ramp, Staircase};
 pub(crate) use through::{GivenFlow, Moved};
 
 /// The sides through which fluid enters or leaves.

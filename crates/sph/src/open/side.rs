@@ -39,6 +39,17 @@ pub struct OpenSide {
     pub depth: f64,
     /// Steps in which the pressure rises.
     pub steps: Option<Staircase>,
+    /// The mean velocity over time, where it rises.
+    pub ramp: Option<Ramp>,
+}
+
+/// A mean velocity that rises linearly in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ramp {
+    /// The velocity at time zero in m/s.
+    pub first: f64,
+    /// The acceleration in m/s².
+    pub acceleration: f64,
 }
 
 /// A pressure that rises in equal steps.
@@ -121,16 +132,35 @@ impl OpenSide {
 
     /// The given inward flow rate in m²/s, 0 where a pressure is given.
     pub fn flow_rate(&self) -> f64 {
+        self.mean_velocity().unwrap_or(0.0) * self.openings.iter().map(Opening::width).sum::<f64>()
+    }
+
+    /// The given inward flow rate in m²/s, on average from time zero to `time` (s).
+    pub(crate) fn average_flow_rate(&self, time: f64) -> f64 {
+        let width = self.openings.iter().map(Opening::width).sum::<f64>();
+        self.velocity_at(0.5 * time).unwrap_or(0.0) * width
+    }
+
+    /// The mean inward velocity in m/s that is given for the present step.
+    fn mean_velocity(&self) -> Option<f64> {
         match &self.drive {
-            Drive::Velocity(profile) => profile.mean * self.openings.iter().map(Opening::width).sum::<f64>(),
-            Drive::Pressure(_) => 0.0,
+            Drive::Velocity(profile) => Some(profile.mean),
+            Drive::Pressure(_) => None,
         }
     }
 
-    /// Sets the pressure that applies from `time` (s) on, where it rises in steps.
+    /// The mean inward velocity in m/s that is given at `time` (s), `None` where a pressure is given.
+    pub fn velocity_at(&self, time: f64) -> Option<f64> {
+        self.ramp.map_or(self.mean_velocity(), |ramp| Some(ramp.first + ramp.acceleration * time))
+    }
+
+    /// Sets the pressure or the velocity that applies from `time` (s) on, where it rises.
     pub(crate) fn take_step(&mut self, time: f64) {
         if let Some(steps) = self.steps {
             self.drive = Drive::Pressure(steps.at(time));
+        }
+        if let (Some(mean), Drive::Velocity(profile)) = (self.velocity_at(time), &mut self.drive) {
+            profile.mean = mean;
         }
     }
 

@@ -37,7 +37,8 @@ impl Flow {
     pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let start = Instant::now();
         let time = self.state.time;
-        self.config.open.sides.iter_mut().for_each(|side| side.take_step(time));
+        let open = &mut self.config.open;
+        open.sides.iter_mut().chain(&mut open.through).for_each(|side| side.take_step(time));
         // Also at the start of each stage of a run.
         if self.state.last_dt == 0.0 {
             self.find_first_pressure(until)?;

@@ -2,7 +2,7 @@
 
 use super::error::SetupError;
 use crate::fill::Lattice;
-use crate::open::{self, Open, OpenSide, Opening, Profile, Shape, Staircase};
+use crate::open::{self, Open, OpenSide, Opening, Profile, Ramp, Shape, Staircase};
 use crate::particles::Phase;
 use meniscus_case::{SIDES, Side, Sph};
 use meniscus_core::math::Vec2;
@@ -39,6 +39,7 @@ pub(super) fn open_sides(
             cell: lattice.volume(),
             depth: layers * lattice.step[axis],
             steps: None,
+            ramp: None,
         };
         let near_side = |y: f64| {
             let mut x = Vec2::zeros();
@@ -77,6 +78,8 @@ pub(super) fn open_sides(
             meniscus_case::Drive::Velocity(mean, form) => profile(mean, form)?,
             meniscus_case::Drive::FlowRate(rate, form) => profile(rate / sph.thickness() / width, form)?,
         };
+        side.ramp =
+            given.acceleration.and_then(|acceleration| Some(Ramp { first: side.velocity_at(0.0)?, acceleration }));
         side.openings = openings;
         if kinds[number] == Side::Periodic {
             open.through.push(side);

@@ -26,6 +26,7 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry, method: 
         wall_speeds: sph.wall_speeds,
         stages: stages(sph, case.end),
         stops_at_breakthrough: sph.stop_at_breakthrough,
+        stops_at_detachment: sph.stop_at_detachment,
         grid_spacing: case.output.grid_ratio * sph.spacing,
         // With a frozen interface the state of the network does not change.
         state_export: (sph.initial.network.as_ref().filter(|_| !sph.measure.relative_permeability))

@@ -364,3 +364,26 @@ fn an_inlet_brings_the_flow_that_is_asked_for_whatever_the_width_of_its_openings
         assert!((carried / asked - 1.0).abs() < 0.02 + 0.5 / (fewest * fewest), "{carried} of {asked} in {text}");
     }
 }
+
+#[test]
+fn a_given_velocity_rises_at_its_rate_through_an_inlet_and_a_period() {
+    let (first, acceleration, end) = (0.01, 0.2, 0.05);
+    for right in ["periodic", "outlet"] {
+        let left = if right == "periodic" { right } else { "inlet" };
+        let sides = format!(
+            "[sph.sides]\nleft = \"{left}\"\nright = \"{right}\"\nbottom = \"symmetry\"\ntop = \"symmetry\"\n\
+             [sph.sides.open.left]\nvelocity = {first}\nacceleration = {acceleration}\n[sph.initial.velocity]\nuniform = [{first}, 0.0]\n"
+        );
+        let mut flow = flow(&channel(&sides));
+        while flow.state.time < end {
+            flow.step((flow.state.time + 2.0e-4).min(end)).unwrap();
+        }
+        let mean = flow.state.particles.velocity[..200].iter().map(|v| v.x).sum::<f64>() / 200.0;
+        // The velocity of a step is that at its beginning.
+        let exact = first + acceleration * (end - 2.0e-4);
+        println!("{right}: mean velocity over exact {:.2e}", mean / exact - 1.0);
+        assert!((mean / exact - 1.0).abs() < 1e-2, "{right}: {mean} m/s, exact {exact}");
+        let side = flow.config.open.sides.iter().chain(&flow.config.open.through).find(|side| side.number == 0);
+        assert!((side.unwrap().velocity_at(end).unwrap() / 0.02 - 1.0).abs() < 1e-12);
+    }
+}

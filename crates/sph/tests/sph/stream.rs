@@ -8,6 +8,7 @@ use meniscus_sph::flow::Flow;
 use meniscus_sph::measures::stream::along;
 use meniscus_sph::observe::Observation;
 use meniscus_sph::particles::Phase;
+use meniscus_sph::unresolved::wetted_by_largest_part;
 use meniscus_validation::requested_groups;
 
 /// Radius of the half disc on the floor, in m.
@@ -138,14 +139,19 @@ fn moving_drop(mut flow: Flow, records: u32, end: f64) -> Vec<Vec<f64>> {
     (0..=records).map(|record| row(end * f64::from(record) / f64::from(records))).collect()
 }
 
-/// A drop that its lines hold, in a channel of 2 mm by 1 mm with the `sides`.
-fn held(sides: &str) -> Flow {
+/// A drop at `center` (m) in a channel of 2 mm by 1 mm with the `sides`.
+fn in_channel(center: [f64; 2], sides: &str) -> Flow {
     flow(&format!(
         "format = 1\ntitle = \"A drop\"\n[geometry]\nmin = [-1.0e-3, 0.0]\nmax = [1.0e-3, 1.0e-3]\n[time]\nend = 1.0\n[sph]\nspacing = 5.0e-5\n\
          [sph.phases.wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n\
          [sph.interface]\ntension = 0.02\n[sph.wetting.hysteresis]\nadvancing-angle-deg = 120.0\nreceding-angle-deg = 60.0\n{sides}\
-         [[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 4.0e-4 }}\n"
+         [[sph.initial.wetting]]\ndisc = {{ center = {center:?}, radius = 4.0e-4 }}\n"
     ))
+}
+
+/// A drop that its lines hold.
+fn held(sides: &str) -> Flow {
+    in_channel([0.0, 0.0], sides)
 }
 
 /// Issue: the direction ahead was that of the noise of a pinned drop, and changed 13 times in a run.
@@ -178,4 +184,14 @@ fn ahead_of_a_held_drop_is_the_way_of_the_stream_in_every_record() {
 fn nothing_is_ahead_of_a_drop_at_rest_in_a_fluid_at_rest() {
     let rows = moving_drop(held("[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n"), 6, 3e-3);
     assert!(rows.iter().all(|row| row[0].is_nan() && row[1].is_nan()), "{rows:?}");
+}
+
+#[test]
+fn a_drop_has_left_the_wall_where_its_largest_part_is_a_row_away() {
+    let small = |y: f64| format!("[[sph.initial.wetting]]\ndisc = {{ center = [7.5e-4, {y:?}], radius = 1.6e-4 }}\n");
+    let width = wetted_by_largest_part(&held(""));
+    assert!((width / (2.0 * RADIUS) - 1.0).abs() < 0.1, "{width}");
+    // Another drop counts neither in the stream nor on the wall.
+    assert_eq!(wetted_by_largest_part(&held(&small(5.0e-4))), width);
+    assert_eq!(wetted_by_largest_part(&in_channel([-1.0e-4, 5.0e-4], &small(0.0))), 0.0);
 }
