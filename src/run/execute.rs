@@ -22,6 +22,7 @@ use meniscus_core::solver::{Clock, Results, Series, Solver, StateError};
 use meniscus_output::checksum::fnv1a;
 use meniscus_output::picture::{PictureError, picture, region_map_picture};
 use meniscus_output::{FileError, atomic, diagram, table, vtk};
+use rayon::prelude::*;
 
 /// Whether a run is new or resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -232,17 +233,14 @@ fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureErr
 /// Writes tables, layers, texts and further maps.
 fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> {
     let folder = &job.folder;
-    results.tables.iter().try_for_each(|one| table::write(folder, one))?;
-    for layer in &results.layers {
+    results.tables.par_iter().try_for_each(|one| table::write(folder, one))?;
+    results.layers.par_iter().try_for_each(|layer| {
         let path = folder.join(format!("{}.vtu", layer.name));
         let content = vtk::layer(layer, compression(&job.case.output))
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write(&path, &content)?;
-    }
-    for document in &results.documents {
-        atomic::write(&folder.join(document.name), document.text.as_bytes())?;
-    }
-    Ok(())
+        atomic::write(&path, &content)
+    })?;
+    results.documents.iter().try_for_each(|one| atomic::write(&folder.join(one.name), one.text.as_bytes()))
 }
 
 /// Draws the diagrams of the run; any that cannot be drawn are left out.

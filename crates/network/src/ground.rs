@@ -87,7 +87,10 @@ impl Ground {
 
     /// The same for many cases: derived quantities of the geometry are cached.
     pub fn shared(self) -> Self {
-        Self { is_shared: true, ..self }
+        let shared = Self { is_shared: true, ..self };
+        // By all threads: cases that run at a time would wait for it within each other.
+        shared.division(Events::All);
+        shared
     }
 
     /// The division of the pore space for these events, if cached.

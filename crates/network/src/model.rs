@@ -1,6 +1,5 @@
 //! The data of a network for output: its static configuration and its displacement.
 
-use std::cell::OnceCell;
 use std::sync::{Arc, OnceLock};
 
 use super::conductance::conductances;
@@ -139,14 +138,14 @@ pub(crate) struct Model {
     pub(crate) config: Configuration,
     /// The displacement; `None` if the network is only extracted.
     pub(crate) cycles: Option<Cycles>,
-    entry_curvatures: OnceCell<Vec<f64>>,
-    trapped_otherwise: OnceCell<Vec<(FilmModel, f64)>>,
+    entry_curvatures: OnceLock<Vec<f64>>,
+    trapped_otherwise: OnceLock<Vec<(FilmModel, f64)>>,
 }
 
 impl Model {
     /// A network in its initial state.
     pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
-        Self { config, cycles, entry_curvatures: OnceCell::new(), trapped_otherwise: OnceCell::new() }
+        Self { config, cycles, entry_curvatures: OnceLock::new(), trapped_otherwise: OnceLock::new() }
     }
 
     /// Entry curvatures of the throats of the network in drainage, in 1/m; `None` without a contact angle.

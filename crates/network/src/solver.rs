@@ -161,10 +161,11 @@ impl Solver for NetworkSolver {
     fn results(&self) -> Results<'_> {
         let (config, cycles) = (self.config(), self.cycles());
         let mut results = results_with(&self.model, cycles.map(Cycles::occupation).as_ref());
+        let (states, flow) = rayon::join(|| state::documents(&self.model), || flow::table(&self.model));
         results.tables.extend(cycles.map(|cycles| tables::events(config, cycles)));
         results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(config, cycles)));
-        results.documents.extend(state::documents(&self.model));
-        results.tables.extend(flow::table(&self.model));
+        results.documents.extend(states);
+        results.tables.extend(flow);
         results
     }
 

@@ -19,9 +19,11 @@ const NOTE_OF_CHIP: &str = "SI units; curvatures are those in the plane, above 0
 /// The states at first breakthrough and at the present moment.
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
     let Some(cycles) = &model.cycles else { return Vec::new() };
-    let breakthrough =
-        cycles.breakthrough().map(|moment| document("at-breakthrough.json", &model.config, cycles, moment));
-    let end = document("at-end.json", &model.config, cycles, &cycles.moment());
+    let at = |name: &'static str, moment: &Moment| document(name, &model.config, cycles, moment);
+    let (breakthrough, end) = rayon::join(
+        || cycles.breakthrough().map(|moment| at("at-breakthrough.json", moment)),
+        || at("at-end.json", &cycles.moment()),
+    );
     breakthrough.into_iter().chain([end]).collect()
 }
 

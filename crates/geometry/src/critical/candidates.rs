@@ -4,6 +4,7 @@
 //! special cases for unequal discs, arcs or vertices, for which triangulations of centers miss pairs.
 
 use delaunator::{Point, triangulate};
+use rayon::prelude::*;
 
 use crate::critical::shift::{Shift, minus, plus};
 use crate::critical::walls::{Link, Walls};
@@ -12,6 +13,9 @@ use meniscus_core::math::Vec2;
 
 /// Samples around a full circle. With 12 or more none of 10,000 loops of a random pack fails its certificate.
 const PER_CIRCLE: f64 = 24.0;
+
+/// Corners of triangles that are looked at together.
+const BLOCK: usize = 3 * 4096;
 
 /// Minimum number of samples on a piece.
 const PER_PIECE: usize = 2;
@@ -48,7 +52,7 @@ pub struct Samples {
 impl Samples {
     /// Samples of all walls; `density` multiplies the number on each piece.
     pub fn new(walls: &Walls, density: &[f64]) -> Self {
-        let along = (0..walls.walls.len()).map(|k| sampled(walls, k, density[k])).collect();
+        let along = (0..walls.walls.len()).into_par_iter().map(|k| sampled(walls, k, density[k])).collect();
         Self { along }
     }
 
@@ -146,27 +150,33 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
         })
         .collect();
     let triangulation = triangulate(&points);
-    let mut pairs = Vec::new();
-    let mut triples = Vec::new();
-    for (t, corner) in triangulation.triangles.chunks_exact(3).enumerate() {
-        let samples = [all[corner[0]], all[corner[1]], all[corner[2]]];
-        for e in 0..3 {
-            let twin = triangulation.halfedges[3 * t + e];
-            // Each edge once; those of the hull have no twin.
-            if twin > 3 * t + e {
-                add_pairs(walls, &samples[e], &samples[(e + 1) % 3], &mut pairs);
+    let within = walls.domain.grown(0.5 * margin);
+    let of_block = |(block, corners): (usize, &[usize])| {
+        let (mut pairs, mut triples) = (Vec::new(), Vec::new());
+        for (k, corner) in corners.chunks_exact(3).enumerate() {
+            let first = block * BLOCK + 3 * k;
+            let samples = [all[corner[0]], all[corner[1]], all[corner[2]]];
+            for e in 0..3 {
+                let twin = triangulation.halfedges[first + e];
+                // Each edge once; those of the hull have no twin.
+                if twin > first + e {
+                    add_pairs(walls, &samples[e], &samples[(e + 1) % 3], &mut pairs);
+                }
+            }
+            let center = circumcenter(samples.map(|s| s.point));
+            // Only maxima within the domain count; those near its sides may move into it.
+            if let Some(start) = center.filter(|x| within.contains(*x)) {
+                let of = samples.map(|s| (s.wall, s.shift));
+                let ends = samples.map(|s| walls.end_of_concave_arc(s.wall, s.u));
+                triples.extend(distinct(Triple { walls: of, ends: [None; 3], start }));
+                triples.extend(distinct(Triple { walls: of, ends, start }).filter(|_| ends != [None; 3]));
             }
         }
-        let center = circumcenter(samples.map(|s| s.point));
-        // Only maxima within the domain count; those near its sides may move into it.
-        if let Some(start) = center.filter(|x| walls.domain.grown(0.5 * margin).contains(*x)) {
-            let of = samples.map(|s| (s.wall, s.shift));
-            let ends = samples.map(|s| walls.end_of_concave_arc(s.wall, s.u));
-            triples.extend(distinct(Triple { walls: of, ends: [None; 3], start }));
-            triples.extend(distinct(Triple { walls: of, ends, start }).filter(|_| ends != [None; 3]));
-        }
-    }
-    (pairs, triples)
+        (pairs, triples)
+    };
+    let (pairs, triples): (Vec<Vec<Pair>>, Vec<Vec<Triple>>) =
+        triangulation.triangles.par_chunks(BLOCK).enumerate().map(of_block).unzip();
+    (pairs.concat(), triples.concat())
 }
 
 /// A triple if its pieces, or their ends, are three.
@@ -188,7 +198,7 @@ pub fn all_pairs(walls: &Walls, images: &[(usize, Shift)]) -> Vec<Pair> {
 /// Pairs sorted by their pieces, then by position.
 pub(crate) fn sorted(mut pairs: Vec<Pair>) -> Vec<Pair> {
     let key = |pair: &Pair| (pair.walls, pair.shift);
-    pairs.sort_by(|a, b| {
+    pairs.par_sort_by(|a, b| {
         let position = a.between.x.total_cmp(&b.between.x).then(a.between.y.total_cmp(&b.between.y));
         key(a).cmp(&key(b)).then(position)
     });

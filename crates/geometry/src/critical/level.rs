@@ -54,9 +54,8 @@ pub(crate) struct Classifier {
 }
 
 impl Classifier {
-    /// The level passage through the midpoint of two opposite points.
-    pub(crate) fn classify(&mut self, walls: &Walls, at: &Opposite) -> Passage {
-        let slopes = slopes(walls, at);
+    /// The level passage through the midpoint of two opposite points with its `slopes`.
+    pub(crate) fn classify(&mut self, walls: &Walls, at: &Opposite, slopes: &[Slope; 2]) -> Passage {
         if slopes.iter().all(|slope| !matches!(slope, Slope::Level(_))) {
             return Passage::Point;
         }
@@ -113,7 +112,8 @@ impl Classifier {
     }
 }
 
-fn slopes(walls: &Walls, at: &Opposite) -> [Slope; 2] {
+/// The slopes of the wall distance from the midpoint of two opposite points to both sides.
+pub(crate) fn slopes(walls: &Walls, at: &Opposite) -> [Slope; 2] {
     let t = perpendicular(at.across());
     [slope(walls, at, t), slope(walls, at, -t)]
 }

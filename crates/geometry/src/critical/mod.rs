@@ -16,13 +16,14 @@ pub mod walls;
 
 use crate::critical::candidates::{Pair, Samples, candidates, pair, sorted};
 use crate::critical::clusters::Coincident;
-use crate::critical::level::{Classifier, Kind, Passage};
+use crate::critical::level::{Classifier, Kind, Passage, slopes};
 use crate::critical::maxima::{Maximum, between_three, center_of_arc, is_maximum, parallel_walls};
 use crate::critical::opposite::{Opposite, TIE, opposite_points};
 use crate::critical::shift::minus;
-use crate::critical::slope::is_opening;
+use crate::critical::slope::{Slope, is_opening};
 use crate::critical::walls::{Contact, Walls};
 use meniscus_core::math::Vec2;
+use rayon::prelude::*;
 
 /// Critical points nearer than this fraction of their wall distance coincide.
 const SAME_PLACE: f64 = 4.0 * TIE;
@@ -39,66 +40,90 @@ impl CriticalPoints {
     /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece, `further` are pairs to look at besides
     /// those that the samples offer.
     pub(crate) fn find(walls: &Walls, density: &[f64], further: &[Pair], coincident: Coincident) -> Self {
-        Self::of_samples(walls, &Samples::new(walls, density), further, coincident)
+        Unresolved::of_samples(walls, &Samples::new(walls, density), further).resolved(walls, coincident)
     }
+}
 
-    /// The same with given samples.
-    pub fn of_samples(walls: &Walls, samples: &Samples, further: &[Pair], coincident: Coincident) -> Self {
+/// The critical points within the domain, with those that coincide.
+pub struct Unresolved {
+    saddles: Vec<Opposite>,
+    maxima: Vec<Maximum>,
+    /// Points between two walls off level passages, and between three walls.
+    isolated: (Vec<Opposite>, Vec<Maximum>),
+}
+
+impl Unresolved {
+    /// Those that samples of the walls offer; `further` are pairs to look at besides.
+    pub fn of_samples(walls: &Walls, samples: &Samples, further: &[Pair]) -> Self {
         let (mut pairs, triples) = candidates(walls, samples);
         pairs.extend(further);
-        let between = triples.iter().filter_map(|triple| between_three(walls, triple));
-        let (mut maxima, others): (Vec<Maximum>, Vec<Maximum>) = between.partition(|at| is_maximum(walls, at));
+        let between: Vec<(Maximum, bool)> = (triples.par_iter())
+            .filter_map(|triple| between_three(walls, triple))
+            .map(|at| {
+                let is_maximum = is_maximum(walls, &at);
+                (at, is_maximum)
+            })
+            .collect();
+        let (mut maxima, mut others) = (Vec::new(), Vec::new());
+        between.into_iter().for_each(|(at, is_maximum)| if is_maximum { maxima.push(at) } else { others.push(at) });
         // A short level passage is found from its ends.
         pairs.extend(others.iter().filter_map(|at| {
             let [a, b] = parallel_walls(walls, at)?.map(|contact| (contact.wall, contact.shift));
             pair(walls, a, b, at.center)
         }));
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
-        let (saddles, maxima) = of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)), coincident);
-        Self { saddles, maxima }
+        Self::of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)))
     }
-}
 
-/// The saddles and maxima between pairs of walls, and the maxima between three.
-fn of_pairs(
-    walls: &Walls,
-    pairs: &[Pair],
-    maxima: Vec<Maximum>,
-    coincident: Coincident,
-) -> (Vec<Opposite>, Vec<Maximum>) {
-    let mut found = Vec::new();
-    for (k, pair) in pairs.iter().enumerate() {
-        let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
-        found.extend(opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at)));
-    }
-    let opposite_key = |at: &Opposite| (walls.folded(at.center), at.half);
-    let found = one_of_each(found, opposite_key);
-    let mut classifier = Classifier::default();
-    let mut isolated = Vec::new();
-    let (mut saddles, mut between) = (Vec::new(), Vec::new());
-    for at in &found {
-        match classifier.classify(walls, at) {
-            Passage::Point => isolated.push(*at),
-            Passage::Level(kinds) => {
-                for kind in kinds {
-                    match kind {
-                        Kind::Saddle(at) => saddles.push(at),
-                        Kind::Maximum(at) => between.push(maxima::at(walls, at.center, at.half)),
+    /// The saddles and maxima between pairs of walls, and the maxima between three.
+    fn of_pairs(walls: &Walls, pairs: &[Pair], maxima: Vec<Maximum>) -> Self {
+        let of_pair = |(k, pair): (usize, &Pair)| {
+            let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
+            opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at)).collect::<Vec<_>>()
+        };
+        let found: Vec<Vec<Opposite>> = pairs.par_iter().enumerate().map(of_pair).collect();
+        let found = one_of_each(found.concat(), opposite_key(walls));
+        let slopes: Vec<[Slope; 2]> = found.par_iter().map(|at| slopes(walls, at)).collect();
+        let mut classifier = Classifier::default();
+        let mut isolated = Vec::new();
+        let (mut saddles, mut between) = (Vec::new(), Vec::new());
+        for (at, slopes) in found.iter().zip(&slopes) {
+            match classifier.classify(walls, at, slopes) {
+                Passage::Point => isolated.push(*at),
+                Passage::Level(kinds) => {
+                    for kind in kinds {
+                        match kind {
+                            Kind::Saddle(at) => saddles.push(at),
+                            Kind::Maximum(at) => between.push(maxima::at(walls, at.center, at.half)),
+                        }
                     }
                 }
             }
         }
+        Self { saddles, maxima: between, isolated: (isolated, maxima) }
     }
-    let (more, maxima) = clusters::resolve(walls, isolated, maxima, coincident);
-    saddles.extend(more);
-    saddles.retain(|at| !is_opening(walls, at));
-    between.extend(maxima);
-    let saddles = saddles.into_iter().map(|at| in_cell(walls, at)).collect();
-    (one_of_each(saddles, opposite_key), one_of_each(between, maximum_key(walls)))
+
+    /// The critical points, with a treatment of those that coincide.
+    pub fn resolved(&self, walls: &Walls, coincident: Coincident) -> CriticalPoints {
+        let (isolated, maxima) = self.isolated.clone();
+        let (more, maxima) = clusters::resolve(walls, isolated, maxima, coincident);
+        let saddles = self.saddles.iter().copied().chain(more).filter(|at| !is_opening(walls, at));
+        let saddles = saddles.map(|at| in_cell(walls, at)).collect();
+        let maxima = self.maxima.iter().cloned().chain(maxima).collect();
+        CriticalPoints {
+            saddles: one_of_each(saddles, opposite_key(walls)),
+            maxima: one_of_each(maxima, maximum_key(walls)),
+        }
+    }
+}
+
+/// The position of opposite points, and half their distance.
+fn opposite_key(walls: &Walls) -> impl Fn(&Opposite) -> (Vec2, f64) + Sync + '_ {
+    |at| (walls.folded(at.center), at.half)
 }
 
 /// The position and the wall distance of a maximum.
-fn maximum_key(walls: &Walls) -> impl Fn(&Maximum) -> (Vec2, f64) + '_ {
+fn maximum_key(walls: &Walls) -> impl Fn(&Maximum) -> (Vec2, f64) + Sync + '_ {
     |maximum| (walls.folded(maximum.center), maximum.radius)
 }
 
@@ -111,14 +136,14 @@ fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
 }
 
 /// The items with distinct centers, sorted by these; of coincident ones the largest.
-fn one_of_each<T>(mut found: Vec<T>, key: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
+fn one_of_each<T: Send>(mut found: Vec<T>, key: impl Fn(&T) -> (Vec2, f64) + Sync) -> Vec<T> {
     // Along this direction, the many candidates of a slit along an axis are apart.
     let along = |thing: &T| key(thing).0.dot(&Vec2::new(0.825_335_614_909_678, 0.564_642_473_395_035));
     let by_center = |a: &T, b: &T| {
         let (p, q) = (key(a), key(b));
         p.0.x.total_cmp(&q.0.x).then(p.0.y.total_cmp(&q.0.y)).then(p.1.total_cmp(&q.1))
     };
-    found.sort_by(|a, b| along(a).total_cmp(&along(b)).then(by_center(a, b)));
+    found.par_sort_by(|a, b| along(a).total_cmp(&along(b)).then(by_center(a, b)));
     let mut kept: Vec<T> = Vec::new();
     for thing in found {
         let (x, size) = key(&thing);
@@ -130,7 +155,7 @@ fn one_of_each<T>(mut found: Vec<T>, key: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> 
             None => kept.push(thing),
         }
     }
-    kept.sort_by(by_center);
+    kept.par_sort_by(by_center);
     kept
 }
 
@@ -189,7 +214,8 @@ mod tests {
                 let walls = Walls::new(&geometry, sides);
                 let found =
                     CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()], &[], Coincident::Clusters).saddles;
-                let expected = of_pairs(&walls, &all_pairs(&walls), Vec::new(), Coincident::Clusters).0;
+                let expected = Unresolved::of_pairs(&walls, &all_pairs(&walls), Vec::new());
+                let expected = expected.resolved(&walls, Coincident::Clusters).saddles;
                 assert_eq!(found.len(), expected.len(), "scene {scene} {periodic:?} {sides:?}");
                 for (a, b) in found.iter().zip(&expected) {
                     assert!((a.center - b.center).norm() < 1e-12 && (a.half - b.half).abs() < 1e-12);

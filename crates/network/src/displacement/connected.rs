@@ -19,13 +19,12 @@ pub(super) struct Graph<'a> {
     mesh: &'a Mesh,
     closed: &'a [bool],
     rings: Option<(&'a Rings, &'a [bool])>,
-    invaded: &'a [bool],
 }
 
 impl<'a> Graph<'a> {
-    /// Whether a path leads from a node to another one beside it: films of a defending phase meet it only in elements that it fills.
-    pub(super) fn leads(self, from: usize, to: usize) -> bool {
-        from < self.invaded.len() || self.invaded.get(to).is_none_or(|invaded| !invaded)
+    /// Whether a node is an element, not a ring.
+    pub(super) fn is_element(self, node: usize) -> bool {
+        node < self.mesh.elements.len()
     }
 
     /// Number of its nodes.
@@ -53,7 +52,7 @@ impl<'a> Graph<'a> {
 impl<'a> Held<'a> {
     /// The graph of a phase; only the wetting phase has paths along rings.
     pub(super) fn graph(self, of_wetting: bool) -> Graph<'a> {
-        let Self { mesh, invaded, closed, rings } = self;
-        Graph { mesh, closed, rings: rings.filter(|_| of_wetting), invaded }
+        let Self { mesh, closed, rings, .. } = self;
+        Graph { mesh, closed, rings: rings.filter(|_| of_wetting) }
     }
 }

@@ -7,7 +7,8 @@
 
 use std::f64::consts::PI;
 
-use super::loops::{Crossing, GateId, Loop, WallPoint, after, before, holds_segment, turn};
+use super::divide::holds_segment;
+use super::loops::{Crossing, GateId, Loop, WallPoint, after, before, turn};
 use crate::graph::WallPiece;
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
@@ -83,7 +84,7 @@ fn mouth(part: &Loop, center: Vec2) -> Option<Mouth> {
             let winding: f64 = inner.iter().map(|piece| piece.curve.winding(center)).sum();
             (winding + closing.winding(center)).abs() < PI
         };
-        is_free() && is_outside() && holds_segment(&curves, p, q)
+        is_free() && is_outside() && holds_segment(&curves, 0, p, q)
     })
 }
 

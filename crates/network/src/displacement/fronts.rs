@@ -67,7 +67,7 @@ impl Displacement {
         if self.conditions.events == Events::All {
             self.meet_neighbors(mesh, (gate, to), &passage, own);
         }
-        self.fronts[gate][to] = Some(Front { passage, own });
+        self.fronts[gate][to] = Some(Box::new(Front { passage, own }));
     }
 
     /// The hydrostatic head in the middle of a gate.

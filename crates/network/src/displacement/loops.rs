@@ -1,17 +1,8 @@
-//! Closed loops of walls and gates, and the division of loops between more than three walls.
-//!
-//! A meniscus that advances through a gate moves along two walls and may touch a third one. For each such event to have its own element, a pore region with
-//! more than three stretches of wall on its loop is divided by the shortest segments from wall to wall inside it (for discs mostly the Delaunay edges of
-//! neighbors without a throat), until each part has three stretches of wall or no segment is left. The parts tile the region.
+//! Closed loops of walls and gates.
 
 use crate::graph::WallPiece;
 use meniscus_core::math::Vec2;
-use meniscus_geometry::closest::closest_points as closest;
 use meniscus_geometry::curve::{ClosestPoint, Curve, cross};
-use meniscus_geometry::intersect::intersections;
-
-/// Relative tolerance of equal lengths.
-const SAME_LENGTH: f64 = 1e-9;
 
 /// A crossing between two stretches of wall on a loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +24,15 @@ pub(super) enum GateId {
     Opening(usize),
     /// A segment that divides a region, with the number of its side.
     Segment(usize, usize),
+}
+
+impl GateId {
+    /// Numbers a segment, one of a region by itself so far, from `first` on.
+    pub(super) fn number_from(&mut self, first: usize) {
+        if let Self::Segment(segment, _) = self {
+            *segment += first;
+        }
+    }
 }
 
 /// A closed loop: each stretch of wall is followed by a crossing; the pore lies on the right.
@@ -57,7 +57,7 @@ pub(super) struct WallPoint {
 }
 
 impl WallPoint {
-    fn of(piece: usize, at: ClosestPoint) -> Self {
+    pub(super) fn of(piece: usize, at: ClosestPoint) -> Self {
         Self { piece, u: at.u, point: at.point }
     }
 }
@@ -133,38 +133,8 @@ impl Loop {
         -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()
     }
 
-    /// The two parts of the loop on both sides of the shortest dividing segment; `None` if there is none. Segments of equal length that cross
-    /// each other, as the diagonals of a square array, are not used.
-    fn divided(&self, segment: usize) -> Option<[Self; 2]> {
-        let count = self.walls.len();
-        let mut candidates: Vec<(f64, usize, usize, WallPoint, WallPoint)> = Vec::new();
-        for a in 0..count {
-            for b in a + 2..count {
-                if a == 0 && b == count - 1 {
-                    continue;
-                }
-                if let Some((p, q)) = closest_points(&self.walls[a], &self.walls[b]) {
-                    candidates.push(((p.point - q.point).norm(), a, b, p, q));
-                }
-            }
-        }
-        candidates.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
-        let curves = self.curves();
-        let mut left =
-            candidates.into_iter().filter(|(_, _, _, p, q)| holds_segment(&curves, p.point, q.point)).peekable();
-        while let Some(shortest) = left.next() {
-            let mut equal = vec![shortest];
-            equal.extend(std::iter::from_fn(|| left.next_if(|next| next.0 <= shortest.0 * (1.0 + SAME_LENGTH))));
-            let ends = |it: &(f64, usize, usize, WallPoint, WallPoint)| [it.3.point, it.4.point];
-            let is_free = |one: &&_| equal.iter().all(|other| !do_cross(ends(one), ends(other)));
-            if let Some(&(_, a, b, p, q)) = equal.iter().find(is_free) {
-                return Some(self.cut((a, p), (b, q), segment));
-            }
-        }
-        None
-    }
-
-    fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
+    /// The two parts of the loop on both sides of a segment from a point of wall `a` to one of wall `b`.
+    pub(super) fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
         let count = self.walls.len();
         // From the point on wall `from` around to the point on wall `to`, and back along the segment.
         let part = |(from, start): (usize, WallPoint), (to, end): (usize, WallPoint), side: usize| {
@@ -184,56 +154,6 @@ impl Loop {
     }
 }
 
-/// Whether two segments cross each other strictly between their ends.
-fn do_cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
-    let slack = SAME_LENGTH * (b - a).norm() * (d - c).norm();
-    let are_apart = |one: f64, other: f64| one.min(other) < -slack && one.max(other) > slack;
-    are_apart(cross(b - a, c - a), cross(b - a, d - a)) && are_apart(cross(d - c, a - c), cross(d - c, b - c))
-}
-
-/// Whether the segment between two points on the walls of a loop lies inside it without meeting any of its curves in between.
-pub(super) fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
-    // Fraction of the segment at both ends that may meet its own walls.
-    const AT_ENDS: f64 = 1e-6;
-    let segment = Curve::Segment { a: p, b: q };
-    let length = segment.length();
-    if !(length > 0.0) {
-        return false;
-    }
-    let mut parameters = Vec::new();
-    for curve in curves {
-        intersections(&segment, curve, 1e-9 * length, &mut parameters);
-    }
-    let middle = 0.5 * (p + q);
-    // The pore lies on the right of the loop.
-    let winding: f64 = curves.iter().map(|curve| curve.winding(middle)).sum();
-    parameters.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && winding < -std::f64::consts::PI
-}
-
-/// Divides a loop until each part has at most three stretches of wall or no dividing segment is left. Segments are numbered from
-/// `segments` on, which is advanced.
-pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
-    // The position of the seam is arbitrary, and segments must not depend on it.
-    if whole.has_seam {
-        return vec![whole];
-    }
-    // Around the grains of a domain whose sides are all open: no segment has the loop around it.
-    if whole.area() < 0.0 {
-        return vec![whole];
-    }
-    let (mut open, mut done) = (vec![whole], Vec::new());
-    while let Some(part) = open.pop() {
-        match if part.walls.len() > 3 { part.divided(*segments) } else { None } {
-            Some(parts) => {
-                *segments += 1;
-                open.extend(parts);
-            }
-            None => done.push(part),
-        }
-    }
-    done
-}
-
 pub(super) fn before(wall: &[WallPiece], end: WallPoint) -> Vec<WallPiece> {
     let mut kept = wall[..end.piece].to_vec();
     if end.u > 0.0 {
@@ -249,80 +169,6 @@ pub(super) fn after(wall: &[WallPiece], start: WallPoint) -> Vec<WallPiece> {
     }
     kept.extend_from_slice(&wall[start.piece + 1..]);
     kept
-}
-
-fn project(wall: &[WallPiece], x: Vec2) -> Option<WallPoint> {
-    let closest = wall.iter().enumerate().map(|(piece, wall)| (piece, wall.curve.project(x)));
-    let distance = |point: Vec2| (point - x).norm_squared();
-    let found = closest.min_by(|a, b| distance(a.1.point).total_cmp(&distance(b.1.point)));
-    found.map(|(piece, closest)| WallPoint::of(piece, closest))
-}
-
-/// Number of points, of two, that are ends of their pieces.
-fn ends(one: &WallPoint, other: &WallPoint) -> usize {
-    // On an arc points as near to its end as this are as near to a facing wall, within rounding of distances.
-    const AT_END: f64 = 1e-4;
-    [one, other].into_iter().filter(|it| !(AT_END..=1.0 - AT_END).contains(&it.u)).count()
-}
-
-/// The closest points of two stretches of wall.
-fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
-    // Number of pairs of pieces up to which all are tried.
-    const FEW: usize = 256;
-    if one.len() * other.len() > FEW {
-        return closest_of_many(one, other);
-    }
-    let mut best: Option<(f64, WallPoint, WallPoint)> = None;
-    for (i, a) in one.iter().enumerate() {
-        for (j, b) in other.iter().enumerate() {
-            let [p, q] = closest(&a.curve, &b.curve);
-            let distance = (p.point - q.point).norm();
-            let found = (distance, WallPoint::of(i, p), WallPoint::of(j, q));
-            // A corner is the end of two pieces; if one of them is parallel to the other wall, the middle of both counts.
-            let is_closer = |best: (f64, WallPoint, WallPoint)| {
-                let rounding = SAME_LENGTH * distance;
-                distance < best.0 - rounding
-                    || distance <= best.0 + rounding && ends(&found.1, &found.2) < ends(&best.1, &best.2)
-            };
-            if best.is_none_or(is_closer) {
-                best = Some(found);
-            }
-        }
-    }
-    best.map(|(_, p, q)| (p, q))
-}
-
-/// The closest points of two stretches of many pieces: from samples, then by alternating projection until convergence.
-fn closest_of_many(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
-    const SAMPLES: usize = 16;
-    const MOST_STEPS: usize = 60;
-    let stride = one.len().div_ceil(SAMPLES).max(1);
-    let mut best: Option<(f64, WallPoint, WallPoint)> = None;
-    for (piece, wall) in one.iter().enumerate().step_by(stride) {
-        for u in [0.0, 0.5, 1.0] {
-            let p = WallPoint { piece, u, point: wall.curve.point(u) };
-            let Some(q) = project(other, p.point) else { continue };
-            let distance = (p.point - q.point).norm();
-            if best.is_none_or(|(least, ..)| distance < least) {
-                best = Some((distance, p, q));
-            }
-        }
-    }
-    let (mut distance, mut p, mut q) = best?;
-    for _ in 0..MOST_STEPS {
-        let Some(next) = project(one, q.point) else { break };
-        let Some(facing) = project(other, next.point) else { break };
-        let closer = (next.point - facing.point).norm();
-        if closer >= distance {
-            break;
-        }
-        let rests = distance - closer <= 1e-15 * distance;
-        (distance, p, q) = (closer, next, facing);
-        if rests {
-            break;
-        }
-    }
-    Some((p, q))
 }
 
 /// Whether the wall turns away from the pore by more than rounding where two of its pieces meet (a concave corner of the wall turns

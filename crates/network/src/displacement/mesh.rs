@@ -1,12 +1,14 @@
 //! Elements, the units of filling, and gates between them.
 //!
-//! With touches and overlaps, an element is a part of a pore region between at most three walls if such a division exists (`loops`), and each throat and each
+//! With touches and overlaps, an element is a part of a pore region between at most three walls if such a division exists (`divide`), and each throat and each
 //! dividing segment is a gate. With bursts alone, an element is a pore of the network with its merged regions, and only the remaining throats are gates.
 
 use super::dead_ends::cut_dead_ends;
-use super::loops::{Crossing, GateId, Loop, divide};
+use super::divide::divide;
+use super::loops::{Crossing, GateId, Loop};
 use crate::graph::{Edge, Network, Pores, Region};
 use meniscus_core::math::Vec2;
+use rayon::prelude::*;
 
 /// A gate, and its end in an element: that at which a meniscus enters it.
 pub(crate) type FrontId = (usize, usize);
@@ -114,18 +116,25 @@ fn misses_walls(part: &Loop, k: usize) -> bool {
 impl Mesh {
     /// Elements between at most three walls, as far as segments divide the regions; each dead end is an element of its own.
     pub(crate) fn divided(network: &Network) -> Self {
-        let (mut mesh, mut segments) = (Self::default(), 0);
-        for (index, region) in network.regions.iter().enumerate() {
+        let divided = |region: &Region| {
+            let mut segments = 0;
             let without = cut_dead_ends(loop_of(region), region.center, &mut segments);
             let parts: Vec<Loop> = without.into_iter().flat_map(|part| divide(part, &mut segments)).collect();
-            let is_whole = parts.len() == 1;
-            for part in parts {
-                mesh.area.push(if is_whole { region.area } else { part.area() });
+            let areas = if parts.len() == 1 { vec![region.area] } else { parts.iter().map(Loop::area).collect() };
+            (parts, areas, segments)
+        };
+        let all: Vec<(Vec<Loop>, Vec<f64>, usize)> = network.regions.par_iter().map(divided).collect();
+        let (mut mesh, mut segments) = (Self::default(), 0);
+        for (index, (parts, areas, count)) in all.into_iter().enumerate() {
+            mesh.area.extend(areas);
+            for mut part in parts {
+                part.crossings.iter_mut().for_each(|crossing| crossing.gate.number_from(segments));
                 mesh.element_of.push(mesh.elements.len());
                 mesh.region_of.push(index);
                 mesh.elements.push(Element { loops: vec![mesh.loops.len()], ..Element::default() });
                 mesh.loops.push(part);
             }
+            segments += count;
         }
         mesh.joined(network, segments, &|_| true)
     }

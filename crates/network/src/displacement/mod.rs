@@ -13,6 +13,7 @@
 mod conditions;
 mod connected;
 mod dead_ends;
+mod divide;
 mod driven;
 mod event;
 mod fronts;
@@ -23,6 +24,7 @@ mod mesh;
 mod outflow;
 mod outline;
 mod progress;
+mod reachable;
 mod rings;
 mod sequence;
 mod snap_off;

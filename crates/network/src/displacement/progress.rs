@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::conditions::{Conditions, OpenDisc};
 use super::connected::Held;
 use super::event::Candidate;
-use super::mesh::Mesh;
+use super::mesh::{Gate, Mesh};
 use super::outline::{centroid, outline};
 use super::rings::Rings;
 use super::trapping::Connection;
@@ -15,6 +15,7 @@ use meniscus_case::network::Events;
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
 use meniscus_geometry::interface::menisci::Passage;
+use rayon::prelude::*;
 
 /// The phases of a displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +64,7 @@ pub struct Displacement {
     pub(super) connection: Connection,
     /// Applied curvature in 1/m when an element was trapped, or at the end of the previous half cycle; NaN if there was none.
     pub(super) held: Vec<f64>,
-    pub(super) fronts: Vec<[Option<Front>; 2]>,
+    pub(super) fronts: Vec<[Option<Box<Front>>; 2]>,
     pub(super) queue: BinaryHeap<Candidate>,
     /// Remaining events of the same curvature as the last one.
     pub(super) tied: VecDeque<Candidate>,
@@ -234,12 +235,10 @@ impl Displacement {
         let (elements, opened) = (std::mem::take(&mut self.filled), std::mem::take(&mut self.opened));
         let mut closing = std::mem::take(&mut self.closing);
         closing.retain(|&gate| self.closed[gate]);
-        for &element in &elements {
-            let (held, connection) = self.held(mesh);
-            let lost = connection.remove(held, element);
-            self.leave(mesh, lost);
-        }
-        self.lose_through(mesh, &closing);
+        let between: Vec<[usize; 2]> = closing.iter().map(|&gate| [0, 1].map(|end| mesh.element(gate, end))).collect();
+        let (held, connection) = self.held(mesh);
+        let lost = connection.remove(held, &elements, &between);
+        self.leave(mesh, lost);
         opened.iter().for_each(|&gate| self.part(mesh, gate));
         let beside = opened.iter().flat_map(|&gate| [mesh.element(gate, 0), mesh.element(gate, 1)]);
         for element in elements.into_iter().chain(beside) {
@@ -365,7 +364,7 @@ impl Displacement {
         const POINTS: usize = 17;
         let fronts =
             self.fronts.iter().enumerate().flat_map(|(gate, ends)| ends.iter().flatten().map(move |it| (gate, it)));
-        let at_rest = |(gate, front): (usize, &Front)| {
+        let at_rest = |(gate, front): (usize, &Box<Front>)| {
             front.passage.at(self.head(&self.mesh, gate).local(applied).min(front.own))
         };
         fronts.filter_map(at_rest).map(|meniscus| meniscus.points(POINTS)).collect()
@@ -380,15 +379,17 @@ impl Displacement {
 
     /// Curvature in 1/m at which menisci burst through each throat, the larger of both directions, under other conditions; NaN for throats that are not gates.
     pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
-        let mut found = vec![f64::NAN; throats];
-        for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
+        let larger = |(gate, it): (usize, &Gate)| {
             let burst = |to| {
                 let (passage, _) = self.passage_at(&conditions.angle, &self.mesh, (gate, to), Vec2::zeros());
                 let formula = passage.burst().map_or(f64::NAN, |meniscus| meniscus.curvature);
-                conditions.burst(Some(throat), formula)
+                conditions.burst(it.throat, formula)
             };
-            found[throat] = burst(0).max(burst(1));
-        }
+            Some((it.throat?, burst(0).max(burst(1))))
+        };
+        let bursts: Vec<(usize, f64)> = self.mesh.gates.par_iter().enumerate().filter_map(larger).collect();
+        let mut found = vec![f64::NAN; throats];
+        bursts.into_iter().for_each(|(throat, burst)| found[throat] = burst);
         found
     }
 }

@@ -163,17 +163,7 @@ impl Displacement {
         let kind = EventKind::Reconnection;
         let curvature = self.head(mesh, gate).applied(own);
         self.queue.push(Candidate { curvature, kind, gate, to, partner: None, is_joined: false });
-        self.fronts[gate][to] = Some(Front { passage, own });
-    }
-
-    /// Trapping after gates were closed.
-    pub(super) fn lose_through(&mut self, mesh: &Mesh, gates: &[usize]) {
-        for &gate in gates {
-            let between = [0, 1].map(|end| mesh.element(gate, end));
-            let (held, connection) = self.held(mesh);
-            let lost = connection.close(held, between);
-            self.leave(mesh, lost);
-        }
+        self.fronts[gate][to] = Some(Box::new(Front { passage, own }));
     }
 
     /// The throats of the network that films have closed.

@@ -2,7 +2,7 @@
 
 use super::conditions::{Conditions, CornerFilms};
 use super::connected::Held;
-use super::outflow::Outflow;
+use super::reachable::Reachable;
 use meniscus_case::network::Trapping;
 
 /// Connectivity of both phases by the trapping rule.
@@ -10,8 +10,8 @@ use meniscus_case::network::Trapping;
 pub(super) struct Connection {
     /// Invading elements connected to the inlet, then rings of the invading phase that are.
     joined: Vec<bool>,
-    /// Paths of the defending phase to the outlets; `None` if nothing is trapped.
-    paths: Option<Outflow>,
+    /// What of the defending phase reaches an outlet; `None` if nothing is trapped.
+    reachable: Option<Reachable>,
     /// Trapped elements of the defending phase.
     pub(super) trapped: Vec<bool>,
     /// Whether the wetting phase defends.
@@ -32,7 +32,7 @@ impl Connection {
             CornerFilms::Drain(paths) => (true, paths.rings.is_none()),
             CornerFilms::Join(paths) => (false, paths.rings.is_none()),
         };
-        let paths = if is_free || (drains && joined_films) || !outlets.contains(&true) {
+        let reachable = if is_free || (drains && joined_films) || !outlets.contains(&true) {
             None
         } else {
             let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
@@ -40,10 +40,11 @@ impl Connection {
             is_outlet.extend(
                 held.rings.filter(|_| drains).map_or_else(Vec::new, |(rings, _)| rings.reach(conditions.outlet)),
             );
-            Some(Outflow::new(held.graph(drains), &defends, &is_outlet))
+            Some(Reachable::new(held.graph(drains), &defends, is_outlet))
         };
-        let trapped = (0..count).map(|e| !invaded[e] && paths.as_ref().is_some_and(|it| !it.is_open(e))).collect();
-        let mut begun = Self { joined: Vec::new(), trapped, paths, drains, newly_fed: Vec::new() };
+        let is_cut_off = |e: usize| !invaded[e] && reachable.as_ref().is_some_and(|it| !it.is_open(e));
+        let trapped = (0..count).map(is_cut_off).collect();
+        let mut begun = Self { joined: Vec::new(), trapped, reachable, drains, newly_fed: Vec::new() };
         if is_free || (joined_films && !drains) {
             let all = (0..count).filter(|&element| invaded[element]).collect();
             begun.joined = invaded.to_vec();
@@ -85,35 +86,24 @@ impl Connection {
     /// Whether the films of a ring are connected to the reservoir of the wetting phase, that of the outlet or of the inlet.
     pub(super) fn is_fed(&self, elements: usize, ring: usize) -> bool {
         if self.drains {
-            self.paths.as_ref().is_none_or(|paths| paths.is_open(elements + ring))
+            self.reachable.as_ref().is_none_or(|reachable| reachable.is_open(elements + ring))
         } else {
             self.joined.get(elements + ring).is_none_or(|joined| *joined)
         }
     }
 
-    /// Removes an element from the defending phase, and returns those that this traps.
-    pub(super) fn remove(&mut self, held: Held, element: usize) -> Vec<usize> {
+    /// Takes elements from the defending phase, and closes the gates between pairs of others to it; returns the elements that this traps.
+    pub(super) fn remove(&mut self, held: Held, elements: &[usize], closed: &[[usize; 2]]) -> Vec<usize> {
         let graph = held.graph(self.drains);
-        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.remove(graph, element));
-        self.trap(held, lost)
-    }
-
-    /// Closes the gate between two elements to the defending phase, and returns those that this traps.
-    pub(super) fn close(&mut self, held: Held, between: [usize; 2]) -> Vec<usize> {
-        let graph = held.graph(self.drains);
-        let lost = self.paths.as_mut().map_or_else(Vec::new, |it| it.close(graph, between));
-        self.trap(held, lost)
+        let mut lost = self.reachable.as_mut().map_or_else(Vec::new, |it| it.cut(graph, elements, closed));
+        lost.retain(|&lost| held.invaded.get(lost).is_some_and(|invaded| !invaded));
+        lost.iter().for_each(|&lost| self.trapped[lost] = true);
+        lost
     }
 
     /// Parts two rings that a gate joined, and returns the elements that this traps.
     pub(super) fn part(&mut self, held: Held, rings: [usize; 2]) -> Vec<usize> {
         let elements = held.invaded.len();
-        self.close(held, rings.map(|ring| elements + ring))
-    }
-
-    fn trap(&mut self, held: Held, mut lost: Vec<usize>) -> Vec<usize> {
-        lost.retain(|&lost| held.invaded.get(lost).is_some_and(|invaded| !invaded));
-        lost.iter().for_each(|&lost| self.trapped[lost] = true);
-        lost
+        self.remove(held, &[], &[rings.map(|ring| elements + ring)])
     }
 }

@@ -25,7 +25,7 @@ use crate::extract::sides::Perimeter;
 use crate::graph::Network;
 use meniscus_case::SIDES;
 use meniscus_geometry::Geometry;
-use meniscus_geometry::critical::CriticalPoints;
+use meniscus_geometry::critical::Unresolved;
 use meniscus_geometry::critical::candidates::{Samples, all_pairs};
 use meniscus_geometry::critical::clusters::Coincident;
 use meniscus_geometry::critical::walls::{Sides, Walls};
@@ -75,8 +75,9 @@ fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Netwo
         } else if samples.count() > most {
             return Err(ExtractError::NoCertificate { near });
         }
+        let found = Unresolved::of_samples(walls, &samples, &further);
         let tried = |coincident: Coincident| {
-            let points = CriticalPoints::of_samples(walls, &samples, &further, coincident);
+            let points = found.resolved(walls, coincident);
             attempt(walls, &points, &Loops::trace(walls, &points.saddles, perimeter))
         };
         let first = tried(Coincident::Clusters);

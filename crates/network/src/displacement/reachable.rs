@@ -1,0 +1,142 @@
+//! What of the defending phase reaches an outlet, as elements are lost one after another.
+//!
+//! Searches in breadth start from all neighbors of what is lost and advance in step; those that meet become one. A search that ends before the others has gone
+//! through a part of its own, which is trapped unless it has an outlet; the last one need not end, since something of what was connected still is. The cost of
+//! an event is that of its smaller parts, and in total n log n (Even and Shiloach 1981).
+//!
+//! An element open at an outlet lets both phases out: the invading phase leaves through it without closing it. Otherwise the first finger
+//! to reach a manifold along a whole side would trap all remaining defending phase.
+
+use std::collections::VecDeque;
+
+use super::connected::Graph;
+use meniscus_core::math::root;
+
+/// Which nodes, elements and rings, reach an outlet through the defending phase and rings.
+#[derive(Debug, Clone)]
+pub(super) struct Reachable {
+    /// Whether each node reaches an outlet, or is one.
+    is_open: Vec<bool>,
+    is_outlet: Vec<bool>,
+    /// Whether each node is an element of the invading phase.
+    is_lost: Vec<bool>,
+    /// By node the number of the last cut whose searches came there, and the search.
+    seen: Vec<(u32, u32)>,
+    cuts: u32,
+}
+
+/// A search from one of the neighbors of what is lost, with those that it has met.
+#[derive(Default)]
+struct Search {
+    found: Vec<usize>,
+    /// Found nodes whose neighbors are not.
+    next: VecDeque<usize>,
+    has_outlet: bool,
+}
+
+impl Reachable {
+    /// Connectivity to the nodes marked as outlets, whatever phase they hold, through elements marked as defending and all rings.
+    pub(super) fn new(graph: Graph, defends: &[bool], is_outlet: Vec<bool>) -> Self {
+        let count = graph.nodes();
+        let mut all = Self {
+            is_open: is_outlet.clone(),
+            is_lost: (0..count).map(|node| defends.get(node).is_some_and(|defends| !defends)).collect(),
+            is_outlet,
+            seen: vec![(0, 0); count],
+            cuts: 0,
+        };
+        let mut open: Vec<usize> = (0..count).filter(|&node| all.is_outlet[node]).collect();
+        while let Some(node) = open.pop() {
+            for other in graph.neighbors(node) {
+                let leads_out = !all.is_lost[node] || graph.is_element(other);
+                if leads_out && !all.is_lost[other] && !std::mem::replace(&mut all.is_open[other], true) {
+                    open.push(other);
+                }
+            }
+        }
+        all
+    }
+
+    /// Whether a node reaches an outlet, or is one.
+    pub(super) fn is_open(&self, node: usize) -> bool {
+        self.is_open[node]
+    }
+
+    /// Takes elements from the defending phase, and the direct paths between pairs of nodes, which are no longer in the graph. Returns the nodes that this cuts
+    /// off. What is lost at a time is given at once.
+    pub(super) fn cut(&mut self, graph: Graph, elements: &[usize], paths: &[[usize; 2]]) -> Vec<usize> {
+        for &element in elements {
+            self.is_lost[element] = true;
+            self.is_open[element] = self.is_outlet[element];
+        }
+        let mut lost: Vec<usize> = Vec::new();
+        let beside = elements.iter().flat_map(|&element| graph.neighbors(element));
+        let starts: Vec<usize> = beside.chain(paths.iter().flatten().copied()).collect();
+        // Where the way out may have been through what is lost, every search has to find one.
+        let was_way_out = |&node: &usize| self.is_lost[node] && self.is_outlet[node];
+        let is_one_open = !starts.iter().chain(elements).any(was_way_out);
+        self.cuts += 1;
+        let mut searches: Vec<Search> = Vec::new();
+        for start in starts {
+            if self.is_open[start] && !self.is_lost[start] && self.seen[start].0 != self.cuts {
+                self.seen[start] = (self.cuts, searches.len() as u32);
+                searches.push(Search { found: vec![start], next: [start].into(), has_outlet: false });
+            }
+        }
+        let mut parent: Vec<usize> = (0..searches.len()).collect();
+        let mut turns: VecDeque<usize> = (0..searches.len()).collect();
+        let (mut running, mut undecided, mut is_outlet_found) = (searches.len(), searches.len(), !is_one_open);
+        while undecided > 0 && (running > 1 || is_outlet_found) {
+            let Some(turn) = turns.pop_front() else { break };
+            if parent[turn] != turn {
+                continue;
+            }
+            let Some(node) = searches[turn].next.pop_front() else {
+                running -= 1;
+                is_outlet_found |= searches[turn].has_outlet;
+                if !searches[turn].has_outlet {
+                    undecided -= 1;
+                    lost.append(&mut searches[turn].found);
+                }
+                continue;
+            };
+            let mut here = turn;
+            let mut reaches = self.is_outlet[node];
+            for other in graph.neighbors(node) {
+                if self.is_lost[other] {
+                    reaches |= self.is_outlet[other] && graph.is_element(node);
+                } else if self.is_open[other] && self.seen[other].0 != self.cuts {
+                    self.seen[other] = (self.cuts, here as u32);
+                    searches[here].found.push(other);
+                    searches[here].next.push_back(other);
+                } else if self.is_open[other] {
+                    let met = root(&mut parent, self.seen[other].1 as usize);
+                    if met != here {
+                        let (into, from) = if searches[met].found.len() < searches[here].found.len() {
+                            (here, met)
+                        } else {
+                            (met, here)
+                        };
+                        let Search { found, next, has_outlet } = std::mem::take(&mut searches[from]);
+                        running -= 1;
+                        undecided -= usize::from(!(has_outlet && searches[into].has_outlet));
+                        searches[into].found.extend(found);
+                        searches[into].next.extend(next);
+                        searches[into].has_outlet |= has_outlet;
+                        parent[from] = into;
+                        here = into;
+                    }
+                }
+            }
+            if reaches && !std::mem::replace(&mut searches[here].has_outlet, true) {
+                undecided -= 1;
+            }
+            // One that was met has a turn already.
+            if here == turn {
+                turns.push_back(turn);
+            }
+        }
+        lost.iter().for_each(|&node| self.is_open[node] = false);
+        lost
+    }
+}
