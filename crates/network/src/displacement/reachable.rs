@@ -2,7 +2,7 @@
 //!
 //! Searches in breadth start from all neighbors of what is lost and advance in step; those that meet become one. A search that ends before the others has gone
 //! through a part of its own, which is trapped unless it has an outlet; the last one need not end, since something of what was connected still is. The cost of
-//! an event is that of its smaller parts, and in total n log n (Even and Shiloach 1981).
+//! an event is that of its smaller parts, in total n log n.
 //!
 //! An element open at an outlet lets both phases out: the invading phase leaves through it without closing it. Otherwise the first finger
 //! to reach a manifold along a whole side would trap all remaining defending phase.
@@ -63,7 +63,7 @@ impl Reachable {
     }
 
     /// Takes elements from the defending phase, and the direct paths between pairs of nodes, which are no longer in the graph. Returns the nodes that this cuts
-    /// off. What is lost at a time is given at once.
+    /// off. What is lost at a time is given at once \[EvenShiloach1981\].
     pub(super) fn cut(&mut self, graph: Graph, elements: &[usize], paths: &[[usize; 2]]) -> Vec<usize> {
         for &element in elements {
             self.is_lost[element] = true;

@@ -165,6 +165,11 @@ mod tests {
     use meniscus_geometry::Geometry;
     use meniscus_geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 
+    /// Whether a pack is regular, with many events at a time.
+    fn is_regular(seed: u64) -> bool {
+        seed % 4 == 3
+    }
+
     /// Discs of random radii on a lattice, of which some touch their neighbors.
     fn pack(seed: u64) -> Geometry {
         let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
@@ -175,16 +180,16 @@ mod tests {
         let place = |k: u32| f64::from(k) + 0.5;
         let discs = (0..7_u32).flat_map(|i| (0..7_u32).map(move |j| (i, j)));
         let shapes = discs.map(|(i, j)| {
-            let center = [place(i) + 0.15 * random(), place(j) + 0.15 * random()];
-            ShapeSpec::Disc(Disc { center, radius: 0.25 + 0.25 * random() })
+            let [x, y, r] = [0.15, 0.15, 0.25].map(|most| if is_regular(seed) { 0.0 } else { most * random() });
+            ShapeSpec::Disc(Disc { center: [place(i) + x, place(j) + y], radius: 0.25 + r })
         });
         let spec = GeometrySpec { min: [0.0; 2], max: [7.0; 2], solid: SolidSide::Inside, shapes: shapes.collect() };
         Geometry::new(&spec).unwrap().with_sides([false; 2], [false, false, true, true])
     }
 
-    /// Paths that are repaired after each event are those that are found anew.
+    /// What is connected after each event is what is found anew \[EvenShiloach1981\].
     #[test]
-    fn repaired_paths_along_rings_are_those_found_anew() {
+    fn what_reaches_an_outlet_after_each_event_is_what_is_found_anew() {
         let (mut trapped, mut along_rings) = (0, 0);
         for seed in 0..12 {
             let geometry = pack(seed);
@@ -228,10 +233,18 @@ mod tests {
             }
             let without = conditions(CornerFilms::Absent, [0, 1], 0.3);
             let mut plain = Displacement::new(&network, &pores, without);
-            plain.by_ref().for_each(drop);
+            while plain.next().is_some() {
+                if plain.tied.is_empty() {
+                    is_same(&mut plain);
+                }
+            }
             let count = |state: &Displacement| (0..state.elements().len()).filter(|&e| state.is_trapped(e)).count();
             trapped += count(&state);
             along_rings += count(&plain);
+            if is_regular(seed) {
+                // What films cut off at an outlet element is beside it when the invading phase fills that.
+                continue;
+            }
             let angle = std::f64::consts::PI - 0.3;
             let mut back = state.reverse(conditions(CornerFilms::Join(paths(-1.0)), [1, 0], angle));
             is_same(&mut back);
