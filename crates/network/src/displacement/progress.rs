@@ -363,8 +363,8 @@ impl Displacement {
     pub(crate) fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
         const POINTS: usize = 17;
         let fronts =
-            self.fronts.iter().enumerate().flat_map(|(gate, ends)| ends.iter().flatten().map(move |it| (gate, it)));
-        let at_rest = |(gate, front): (usize, &Box<Front>)| {
+            self.fronts.iter().enumerate().flat_map(|(gate, ends)| ends.iter().flatten().map(move |it| (gate, &**it)));
+        let at_rest = |(gate, front): (usize, &Front)| {
             front.passage.at(self.head(&self.mesh, gate).local(applied).min(front.own))
         };
         fronts.filter_map(at_rest).map(|meniscus| meniscus.points(POINTS)).collect()
