@@ -34,6 +34,59 @@ struct Search {
     has_outlet: bool,
 }
 
+/// Searches that advance in turn.
+struct Searches {
+    all: Vec<Search>,
+    /// The search that each one was joined to, or itself.
+    parent: Vec<usize>,
+    turns: VecDeque<usize>,
+    /// Number of searches that have not ended, and of those without an outlet.
+    running: usize,
+    undecided: usize,
+}
+
+impl Searches {
+    fn of(all: Vec<Search>) -> Self {
+        let count = all.len();
+        Self { all, parent: (0..count).collect(), turns: (0..count).collect(), running: count, undecided: count }
+    }
+
+    /// Joins two searches that have met, the smaller one to the larger one, and returns that.
+    fn join(&mut self, one: usize, other: usize) -> usize {
+        let [one, other] = [one, other].map(|search| root(&mut self.parent, search));
+        if one == other {
+            return one;
+        }
+        let is_smaller = self.all[other].found.len() < self.all[one].found.len();
+        let (into, from) = if is_smaller { (one, other) } else { (other, one) };
+        let Search { found, next, has_outlet } = std::mem::take(&mut self.all[from]);
+        let joined = &mut self.all[into];
+        self.running -= 1;
+        self.undecided -= usize::from(!(has_outlet && joined.has_outlet));
+        joined.found.extend(found);
+        joined.next.extend(next);
+        joined.has_outlet |= has_outlet;
+        self.parent[from] = into;
+        into
+    }
+
+    /// A search has an outlet.
+    fn decide(&mut self, search: usize) {
+        if !std::mem::replace(&mut self.all[search].has_outlet, true) {
+            self.undecided -= 1;
+        }
+    }
+
+    /// A search has found all that it can: what it has found, if there is no outlet.
+    fn end(&mut self, search: usize) -> Option<Vec<usize>> {
+        self.running -= 1;
+        (!self.all[search].has_outlet).then(|| {
+            self.undecided -= 1;
+            std::mem::take(&mut self.all[search].found)
+        })
+    }
+}
+
 impl Reachable {
     /// Connectivity to the nodes marked as outlets, whatever phase they hold, through elements marked as defending and all rings.
     pub(super) fn new(graph: Graph, defends: &[bool], is_outlet: Vec<bool>) -> Self {
@@ -75,68 +128,61 @@ impl Reachable {
         // Where the way out may have been through what is lost, every search has to find one.
         let was_way_out = |&node: &usize| self.is_lost[node] && self.is_outlet[node];
         let is_one_open = !starts.iter().chain(elements).any(was_way_out);
-        self.cuts += 1;
-        let mut searches: Vec<Search> = Vec::new();
-        for start in starts {
-            if self.is_open[start] && !self.is_lost[start] && self.seen[start].0 != self.cuts {
-                self.seen[start] = (self.cuts, searches.len() as u32);
-                searches.push(Search { found: vec![start], next: [start].into(), has_outlet: false });
-            }
-        }
-        let mut parent: Vec<usize> = (0..searches.len()).collect();
-        let mut turns: VecDeque<usize> = (0..searches.len()).collect();
-        let (mut running, mut undecided, mut is_outlet_found) = (searches.len(), searches.len(), !is_one_open);
-        while undecided > 0 && (running > 1 || is_outlet_found) {
-            let Some(turn) = turns.pop_front() else { break };
-            if parent[turn] != turn {
+        let mut searches = self.begin(starts);
+        let mut is_outlet_found = !is_one_open;
+        while searches.undecided > 0 && (searches.running > 1 || is_outlet_found) {
+            let Some(turn) = searches.turns.pop_front() else { break };
+            if searches.parent[turn] != turn {
                 continue;
             }
-            let Some(node) = searches[turn].next.pop_front() else {
-                running -= 1;
-                is_outlet_found |= searches[turn].has_outlet;
-                if !searches[turn].has_outlet {
-                    undecided -= 1;
-                    lost.append(&mut searches[turn].found);
+            let Some(node) = searches.all[turn].next.pop_front() else {
+                match searches.end(turn) {
+                    Some(found) => lost.extend(found),
+                    None => is_outlet_found = true,
                 }
                 continue;
             };
-            let mut here = turn;
-            let mut reaches = self.is_outlet[node];
-            for other in graph.neighbors(node) {
-                if self.is_lost[other] {
-                    reaches |= self.is_outlet[other] && graph.is_element(node);
-                } else if self.is_open[other] && self.seen[other].0 != self.cuts {
-                    self.seen[other] = (self.cuts, here as u32);
-                    searches[here].found.push(other);
-                    searches[here].next.push_back(other);
-                } else if self.is_open[other] {
-                    let met = root(&mut parent, self.seen[other].1 as usize);
-                    if met != here {
-                        let (into, from) = if searches[met].found.len() < searches[here].found.len() {
-                            (here, met)
-                        } else {
-                            (met, here)
-                        };
-                        let Search { found, next, has_outlet } = std::mem::take(&mut searches[from]);
-                        running -= 1;
-                        undecided -= usize::from(!(has_outlet && searches[into].has_outlet));
-                        searches[into].found.extend(found);
-                        searches[into].next.extend(next);
-                        searches[into].has_outlet |= has_outlet;
-                        parent[from] = into;
-                        here = into;
-                    }
-                }
-            }
-            if reaches && !std::mem::replace(&mut searches[here].has_outlet, true) {
-                undecided -= 1;
-            }
+            let here = self.go_on(graph, &mut searches, turn, node);
             // One that was met has a turn already.
             if here == turn {
-                turns.push_back(turn);
+                searches.turns.push_back(turn);
             }
         }
         lost.iter().for_each(|&node| self.is_open[node] = false);
         lost
+    }
+
+    /// Searches from the open ones among `starts`.
+    fn begin(&mut self, starts: Vec<usize>) -> Searches {
+        self.cuts += 1;
+        let mut all: Vec<Search> = Vec::new();
+        for start in starts {
+            if self.is_open[start] && !self.is_lost[start] && self.seen[start].0 != self.cuts {
+                self.seen[start] = (self.cuts, all.len() as u32);
+                all.push(Search { found: vec![start], next: [start].into(), has_outlet: false });
+            }
+        }
+        Searches::of(all)
+    }
+
+    /// Goes on from a node of a search to its neighbors; returns the search, or the one to which it was joined.
+    fn go_on(&mut self, graph: Graph, searches: &mut Searches, search: usize, node: usize) -> usize {
+        let mut here = search;
+        let mut is_out = self.is_outlet[node];
+        for other in graph.neighbors(node) {
+            if self.is_lost[other] {
+                is_out |= self.is_outlet[other] && graph.is_element(node);
+            } else if self.is_open[other] && self.seen[other].0 != self.cuts {
+                self.seen[other] = (self.cuts, here as u32);
+                searches.all[here].found.push(other);
+                searches.all[here].next.push_back(other);
+            } else if self.is_open[other] {
+                here = searches.join(here, self.seen[other].1 as usize);
+            }
+        }
+        if is_out {
+            searches.decide(here);
+        }
+        here
     }
 }
