@@ -29,7 +29,10 @@ def drawing(posts: int, to: Path) -> int:
     column, row = np.meshgrid(np.arange(across), np.arange(round(posts / across)))
     x = (column + 0.5 * (row % 2) + 0.5) * STEP + random.uniform(-MOVED, MOVED, row.shape)
     y = (row + 0.5) * STEP * math.sqrt(3.0) / 2.0 + random.uniform(-MOVED, MOVED, row.shape)
-    np.savetxt(to, np.column_stack([part.ravel() for part in (x, y, random.uniform(*RADII, row.shape))]), fmt="%.8e", header="x y r in m")
+    # Manifolds at both ends, and walls above and below.
+    domain = (-STEP, 0.0, (across + 1.5) * STEP, (row.max() + 1.0) * STEP * math.sqrt(3.0) / 2.0)
+    header = "x y r in m\ndomain " + " ".join(f"{end:.8e}" for end in domain)
+    np.savetxt(to, np.column_stack([part.ravel() for part in (x, y, random.uniform(*RADII, row.shape))]), fmt="%.8e", header=header)
     return row.size
 
 
