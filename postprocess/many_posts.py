@@ -1,9 +1,10 @@
 """Time and memory of a network, from the drawing to its curve, over the number of posts.
 
-Usage: many_posts.py [--program meniscus] [--sizes 1e3,1e4,1e5] [--threads 2]
+Usage: many_posts.py [--program meniscus] [--sizes 1e3,1e4,1e5] [--threads 2] [--picture many-posts.webp]
 
 The posts have radii of 25 to 38 um and lie on a triangular lattice of 100 um, each moved by up to 10 um. A drainage goes from left to right until nothing
-moves any more. Invasion is the time of the events with trapping; the total contains reading the drawing, pictures and tables too.
+moves any more. Invasion is the time of the events with trapping; the total contains reading the drawing, pictures and tables too. The picture is that of the
+last size.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 STEP = 1.0e-4  # m, of the lattice
 MOVED = 1.0e-5  # m
@@ -36,8 +38,8 @@ def drawing(posts: int, to: Path) -> int:
     return row.size
 
 
-def measure(program: str, posts: int, threads: int) -> str:
-    """A line of the table."""
+def measure(program: str, posts: int, threads: int, picture: Path | None) -> str:
+    """A line of the table; the picture of the run is written where one is asked for."""
     with tempfile.TemporaryDirectory() as folder:
         file, out = Path(folder) / "posts.xyr", Path(folder) / "out"
         count = drawing(posts, file)
@@ -48,6 +50,10 @@ def measure(program: str, posts: int, threads: int) -> str:
         wall = time.monotonic() - start
         if status:
             raise SystemExit(f"{program} network ended with {os.waitstatus_to_exitcode(status)} for {count} posts")
+        if picture:
+            image = Image.open(out / "picture.png").convert("RGB")
+            image.thumbnail((700, 700))
+            image.save(picture, quality=80)
         report = json.loads((out / "report.json").read_text())
         parts, measures = report["wall-time-s"]["parts"], report["measures"]
         pores, events = (round(measures[name]["value"]) for name in ("pores", "events"))
@@ -64,6 +70,7 @@ def main() -> None:
     parser.add_argument("--program", default="meniscus")
     parser.add_argument("--sizes", default="1e3,1e4,1e5")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
     heads = (
         "posts",
@@ -79,7 +86,7 @@ def main() -> None:
     print("| " + " | ".join(heads) + " |")
     print("|---" * len(heads) + "|")
     for size in arguments.sizes.split(","):
-        print(measure(arguments.program, round(float(size)), arguments.threads), flush=True)
+        print(measure(arguments.program, round(float(size)), arguments.threads, arguments.picture), flush=True)
 
 
 if __name__ == "__main__":
