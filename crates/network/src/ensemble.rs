@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 
 use super::cycles::{Cycles, FluidPhase};
-use super::displacement::{Element, Phase};
+use super::displacement::{Division, Phase};
 use super::dynamic::solver::DynamicSolver;
 use super::films::CurvePoint;
 use super::locate::{inner_point, located};
@@ -82,7 +82,7 @@ impl Observed {
 /// The elements of a map, those of one of the networks.
 pub struct Reference {
     config: Configuration,
-    elements: Vec<Element>,
+    division: Division,
     probes: Vec<Vec2>,
     processes: Vec<&'static str>,
 }
@@ -107,24 +107,26 @@ impl Sample {
         }
     }
 
-    fn elements(&self) -> &[Element] {
+    fn division(&self) -> Division {
         match self {
-            Self::QuasiStatic(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement.elements()),
-            Self::InTime(solver) => solver.elements(),
+            Self::QuasiStatic(solver) => {
+                solver.cycles().map_or_else(Division::default, |cycles| cycles.displacement.division())
+            }
+            Self::InTime(solver) => solver.division(),
         }
     }
 
     /// Its elements.
     pub fn reference(&self) -> Reference {
-        let elements = self.elements().to_vec();
-        let probes = elements.iter().map(|element| inner_point(&element.outline)).collect();
+        let division = self.division();
+        let probes = division.outlines().iter().map(|outline| inner_point(outline)).collect();
         let processes = match self {
             Self::QuasiStatic(solver) => solver
                 .cycles()
                 .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.invading.process()).collect()),
             Self::InTime(_) => Vec::new(),
         };
-        Reference { config: self.model().config.clone(), elements, probes, processes }
+        Reference { config: self.model().config.clone(), division, probes, processes }
     }
 
     /// Performs the displacement and finds its measures, those of a quasi-static one without the costly ones that are left out; `None` if
@@ -139,7 +141,7 @@ impl Sample {
         stop: &dyn Fn(f64) -> Option<(f64, bool)>,
         interrupt: &AtomicBool,
     ) -> Result<Option<Observed>, SolverError> {
-        let counterparts = reference.counterparts(&self.model().config, self.elements());
+        let counterparts = reference.counterparts(&self.model().config, &self.division());
         match self {
             Self::QuasiStatic(solver) => Ok(quasi_static(*solver, &counterparts, costly, interrupt)),
             Self::InTime(solver) => in_its_time(*solver, &counterparts, stop, interrupt),
@@ -297,20 +299,21 @@ impl Reference {
 
     /// Number of its elements.
     pub fn len(&self) -> usize {
-        self.elements.len()
+        self.division.elements().len()
     }
 
     /// For each of its elements the one of another network at the same position; `None` inside walls.
-    fn counterparts(&self, config: &Configuration, elements: &[Element]) -> Vec<Option<usize>> {
+    fn counterparts(&self, config: &Configuration, division: &Division) -> Vec<Option<usize>> {
+        let [elements, own] = [division.elements(), self.division.elements()];
         let is_same = config.geometry_hash == self.config.geometry_hash
-            && elements.len() == self.elements.len()
-            && elements.iter().zip(&self.elements).all(|(one, other)| one.area == other.area);
+            && elements.len() == own.len()
+            && elements.iter().zip(own).all(|(one, other)| one.area == other.area);
         if is_same {
             return (0..elements.len()).map(Some).collect();
         }
         let size = config.bounds.size();
         let periods = [0, 1].map(|axis| config.periodic[axis].then_some(size[axis]));
-        located(elements, &self.probes, periods)
+        located(&division.outlines(), &self.probes, periods)
     }
 
     /// The probability that a random point of each pore is invaded, as a table of pores.
@@ -318,7 +321,7 @@ impl Reference {
         let config = &self.config;
         let pores = config.pores.main_region.len();
         let mut sums = vec![[0.0; 2]; pores];
-        for (element, probability) in self.elements.iter().zip(probability) {
+        for (element, probability) in self.division.elements().iter().zip(probability) {
             let [weighted, area] = &mut sums[config.pores.pore_of[element.region]];
             *weighted += element.area * probability;
             *area += element.area;
@@ -342,12 +345,12 @@ impl Reference {
 
     /// The same by element.
     pub fn layer(&self, probability: &[f64]) -> Layer<'static> {
-        layers::invasion(&self.config, &self.elements, probability)
+        layers::invasion(&self.config, &self.division, probability)
     }
 
     /// The same as a picture; `note` is printed below its title.
     pub fn region_map(&self, probability: &[f64], note: String) -> RegionMap {
-        pictures::invasion(&self.config, &self.elements, probability, note)
+        pictures::invasion(&self.config, &self.division, probability, note)
     }
 }
 

@@ -109,7 +109,7 @@ impl FilmFlow {
 
 /// The radius of films in a region in m, at most that at which they meet on its walls or, on average, on its plates.
 fn radius(region: &Region, terms: &FilmTerms, applied: f64) -> f64 {
-    let pieces = region.edges.iter().flat_map(|edge| if let Edge::Wall(pieces) = edge { &pieces[..] } else { &[] });
+    let pieces = region.edges.iter().flat_map(|edge| if let Edge::Wall(pieces) = edge { &pieces[..] } else { &[][..] });
     let (largest, curvature) = (terms.largest_radius(pieces, region.area), applied + terms.head(region.center));
     if curvature > 0.0 { (1.0 / curvature).min(largest) } else { largest }
 }

@@ -115,7 +115,7 @@ impl ElementFilms {
         Self {
             parts,
             largest: terms.largest_radius(displacement.wall_pieces(element), area),
-            head: terms.head(displacement.elements()[element].center()),
+            head: terms.head(displacement.center(element)),
         }
     }
 

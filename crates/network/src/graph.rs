@@ -4,6 +4,9 @@
 //! wall and chords of throats (or openings of open sides), with the pore on the right. Positions along a loop are continuous: in periodic
 //! domains they may leave the domain, and [`Throat::shift`] transforms from the frame of one region to that of its neighbor.
 
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
 
@@ -12,15 +15,37 @@ use meniscus_geometry::curve::Curve;
 pub struct WallPiece {
     /// Its curve in the frame of its region, cut at chords.
     pub curve: Curve,
-    /// The uncut piece of wall of which it is a part; a full circle for a disc.
-    pub whole: Curve,
+    /// Polar angle in rad at which the uncut circle begins of which it is a part, that of a disc; infinite if it is not part of one.
+    pub circle_start: f64,
     /// Index of the written shape; walls at the left, right, bottom and top side follow after the last shape.
     pub shape: u32,
 }
 
+/// Consecutive pieces of wall, shared by all that they bound.
+pub type Stretch = Arc<[WallPiece]>;
+
 impl WallPiece {
+    /// A part of an uncut piece of wall of a shape.
+    pub(super) fn part_of(whole: &Curve, curve: Curve, shape: u32) -> Self {
+        let circle_start = match whole {
+            Curve::Arc { start, .. } if whole.is_closed() => *start,
+            _ => f64::INFINITY,
+        };
+        Self { curve, circle_start, shape }
+    }
+
+    /// The full circle of which it is a part; `None` if it is not part of one.
+    pub(super) fn circle(&self) -> Option<Curve> {
+        match self.curve {
+            Curve::Arc { center, radius, sweep, .. } if self.circle_start.is_finite() => {
+                Some(Curve::Arc { center, radius, start: self.circle_start, sweep: TAU.copysign(sweep) })
+            }
+            _ => None,
+        }
+    }
+
     pub(super) fn shifted(&self, by: Vec2) -> Self {
-        Self { curve: self.curve.shifted(by), whole: self.whole.shifted(by), shape: self.shape }
+        Self { curve: self.curve.shifted(by), ..*self }
     }
 }
 
@@ -28,7 +53,7 @@ impl WallPiece {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Edge {
     /// A stretch of wall between two chords: consecutive pieces, pore on the right.
-    Wall(Vec<WallPiece>),
+    Wall(Stretch),
     /// The chord of a throat.
     Throat {
         /// Index of the throat.

@@ -1,7 +1,7 @@
 //! The network for VTK: pores as points, throats as lines, regions as polygons, menisci as lines.
 
 use super::cycles::{FluidPhase, Invasion};
-use super::displacement::Element;
+use super::displacement::Division;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::summary::pore_states;
@@ -38,8 +38,8 @@ pub(crate) fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
 pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -> Layer<'static> {
     let pores = &config.pores;
     let Some(occupation) = occupation else { return plain_regions(config) };
-    let elements = occupation.elements;
-    let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
+    let elements = occupation.elements();
+    let (points, cells) = joined((0..elements.len()).map(|element| occupation.displacement.outline(element)));
     let pressure = |invasion: &Invasion| config.pressure(occupation.invading, invasion.applied);
     let invasions = || occupation.invasions.iter();
     let mut fields = vec![
@@ -66,8 +66,9 @@ pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -
 }
 
 /// The elements with their probability of invasion.
-pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64]) -> Layer<'static> {
-    let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
+pub(crate) fn invasion(config: &Configuration, division: &Division, probability: &[f64]) -> Layer<'static> {
+    let elements = division.elements();
+    let (points, cells) = joined((0..elements.len()).map(|element| division.outline(element)));
     let fields = vec![
         Field::integer("pore", elements.iter().map(|element| config.pores.pore_of[element.region] as i64)),
         Field::scalar("area", "m2", elements.iter().map(|element| element.area)),

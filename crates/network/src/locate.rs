@@ -1,6 +1,6 @@
 //! Point location in elements.
 
-use super::displacement::{Element, centroid, contains, edges};
+use super::displacement::{centroid, contains, edges};
 use meniscus_core::math::{Bounds, Vec2};
 
 /// A point within an outline: its centroid if inside, else the middle of the longest segment of a line across it.
@@ -24,19 +24,19 @@ pub(super) fn inner_point(outline: &[Vec2]) -> Vec2 {
 
 /// Cells of a regular grid with the elements that overlap them.
 struct Cells<'e> {
-    elements: &'e [Element],
+    outlines: &'e [Vec<Vec2>],
     bounds: Bounds,
     count: usize,
     within: Vec<Vec<u32>>,
 }
 
 impl<'e> Cells<'e> {
-    fn new(elements: &'e [Element]) -> Option<Self> {
-        let bounds = Bounds::around(elements.iter().flat_map(|element| element.outline.iter().copied()))?;
-        let count = (elements.len() as f64).sqrt().ceil() as usize;
-        let mut cells = Self { elements, bounds, count, within: vec![Vec::new(); count * count] };
-        for (index, element) in elements.iter().enumerate() {
-            let Some(around) = Bounds::around(element.outline.iter().copied()) else { continue };
+    fn new(outlines: &'e [Vec<Vec2>]) -> Option<Self> {
+        let bounds = Bounds::around(outlines.iter().flatten().copied())?;
+        let count = (outlines.len() as f64).sqrt().ceil() as usize;
+        let mut cells = Self { outlines, bounds, count, within: vec![Vec::new(); count * count] };
+        for (index, outline) in outlines.iter().enumerate() {
+            let Some(around) = Bounds::around(outline.iter().copied()) else { continue };
             let ([left, low], [right, high]) = (cells.cell(around.min), cells.cell(around.max));
             for (row, column) in (low..=high).flat_map(|row| (left..=right).map(move |column| (row, column))) {
                 cells.within[row * count + column].push(index as u32);
@@ -59,13 +59,13 @@ impl<'e> Cells<'e> {
         }
         let [column, row] = self.cell(x);
         let candidates = self.within[row * self.count + column].iter().map(|&index| index as usize);
-        candidates.into_iter().find(|&index| contains(&self.elements[index].outline, x))
+        candidates.into_iter().find(|&index| contains(&self.outlines[index], x))
     }
 }
 
-/// For each point in m the element in which it lies, or `None`. Outlines may extend past the domain, which has these periods.
-pub(super) fn located(elements: &[Element], points: &[Vec2], periods: [Option<f64>; 2]) -> Vec<Option<usize>> {
-    let Some(cells) = Cells::new(elements) else { return vec![None; points.len()] };
+/// For each point in m the outline in which it lies, or `None`. Outlines may extend past the domain, which has these periods.
+pub(super) fn located(outlines: &[Vec<Vec2>], points: &[Vec2], periods: [Option<f64>; 2]) -> Vec<Option<usize>> {
+    let Some(cells) = Cells::new(outlines) else { return vec![None; points.len()] };
     let shifts = periods.map(|period| period.map_or(vec![0.0], |period| vec![0.0, period, -period]));
     let find = |point: &Vec2| {
         let mut images = shifts[0].iter().flat_map(|&x| shifts[1].iter().map(move |&y| Vec2::new(x, y)));
@@ -92,14 +92,10 @@ mod tests {
 
     #[test]
     fn places_are_found_in_their_elements_across_periods_too() {
-        let square = |x: f64| Element {
-            region: 0,
-            area: 1.0,
-            outline: outline(&[[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]),
-        };
-        let elements = [square(0.0), square(1.0), square(2.0)];
+        let square = |x: f64| outline(&[[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]);
+        let outlines = [square(0.0), square(1.0), square(2.0)];
         let points = [Vec2::new(1.5, 0.5), Vec2::new(-0.5, 0.5), Vec2::new(0.5, 2.0)];
-        assert_eq!(located(&elements, &points, [Some(3.0), None]), [Some(1), Some(2), None]);
-        assert_eq!(located(&elements, &points, [None; 2]), [Some(1), None, None]);
+        assert_eq!(located(&outlines, &points, [Some(3.0), None]), [Some(1), Some(2), None]);
+        assert_eq!(located(&outlines, &points, [None; 2]), [Some(1), None, None]);
     }
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::cycles::{Cycles, FluidPhase, Invasion};
-use super::displacement::{Element, Phase};
+use super::displacement::{Displacement, Element, Phase};
 use super::films::ObservedFilms;
 use super::model::Configuration;
 use meniscus_core::diagram::Through;
@@ -12,8 +12,8 @@ use meniscus_core::math::Vec2;
 /// Phases of all elements, and their history.
 #[derive(Debug, Clone)]
 pub(crate) struct Occupation<'a> {
-    /// The elements; they tile the pore space.
-    pub(crate) elements: &'a [Element],
+    /// The displacement, for its elements.
+    pub(crate) displacement: &'a Displacement,
     /// The invading phase.
     pub(crate) invading: FluidPhase,
     /// Its saturation in each element.
@@ -35,6 +35,11 @@ pub(crate) struct Occupation<'a> {
 }
 
 impl Occupation<'_> {
+    /// The elements; they tile the pore space.
+    pub(crate) fn elements(&self) -> &[Element] {
+        self.displacement.elements()
+    }
+
     /// Whether the invading phase holds most of an element.
     pub(crate) fn is_invaded(&self, element: usize) -> bool {
         self.share[element] > 0.5
@@ -53,7 +58,7 @@ impl Cycles {
         let elements = displacement.elements();
         let present = self.history().iter().filter(|entry| entry.half_cycle == self.half_cycle_index());
         Occupation {
-            elements,
+            displacement,
             invading: self.half_cycle().invading,
             share: (0..elements.len()).map(|e| f64::from(u8::from(displacement.phase(e) == Phase::Invading))).collect(),
             trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),

@@ -103,7 +103,7 @@ mod tests {
     use meniscus_geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 
     fn wall(curve: Curve) -> Edge {
-        Edge::Wall(vec![WallPiece { curve, whole: curve, shape: 0 }])
+        Edge::Wall([WallPiece::part_of(&curve, curve, 0)].into())
     }
 
     fn region(center: Vec2, radius: f64, edges: Vec<Edge>) -> Region {

@@ -1,7 +1,7 @@
 //! Data of the capillary pressure curve and the maps of a network.
 
 use super::cycles::{Cycles, Entry, FluidPhase};
-use super::displacement::Element;
+use super::displacement::Division;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::region::shifts;
@@ -190,7 +190,7 @@ pub(crate) fn through(side: Side) -> Option<Through> {
 }
 
 fn order(config: &Configuration, occupation: &Occupation, progress: String) -> RegionMap {
-    let areas = occupation.elements.iter().enumerate().flat_map(|(index, element)| {
+    let areas = (0..occupation.elements().len()).flat_map(|index| {
         let is_invaded = occupation.is_invaded(index);
         let tone = match occupation.invasions[index] {
             Some(invasion) if is_invaded => Tone::Value(invasion.displaced),
@@ -198,7 +198,7 @@ fn order(config: &Configuration, occupation: &Occupation, progress: String) -> R
             None if is_invaded => Tone::Class(2),
             _ => Tone::Class(0),
         };
-        areas(config, &element.outline, tone)
+        areas(config, &occupation.displacement.outline(index), tone)
     });
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
@@ -225,9 +225,11 @@ fn order(config: &Configuration, occupation: &Occupation, progress: String) -> R
 }
 
 /// The elements by their probability of invasion.
-pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64], note: String) -> RegionMap {
-    let elements = elements.iter().zip(probability);
-    let areas = elements.flat_map(|(element, &it)| areas(config, &element.outline, Tone::Value(it)));
+pub(crate) fn invasion(config: &Configuration, division: &Division, probability: &[f64], note: String) -> RegionMap {
+    let areas = probability
+        .iter()
+        .enumerate()
+        .flat_map(|(index, &it)| areas(config, &division.outline(index), Tone::Value(it)));
     RegionMap { note, label: "probability of invasion", areas: areas.collect(), ..empty(config) }
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct PoreState {
 /// The present states of all pores.
 pub(crate) fn pore_states(config: &Configuration, occupation: &Occupation) -> Vec<PoreState> {
     let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); config.pores.main_region.len()];
-    for (index, element) in occupation.elements.iter().enumerate() {
+    for (index, element) in occupation.elements().iter().enumerate() {
         elements_of[config.pores.pore_of[element.region]].push(index);
     }
     elements_of.iter().map(|elements| state(occupation, elements)).collect()
@@ -30,7 +30,7 @@ pub(crate) fn pore_states(config: &Configuration, occupation: &Occupation) -> Ve
 /// Number of pores invaded in the present half cycle.
 pub(crate) fn invaded_pores(config: &Configuration, occupation: &Occupation) -> usize {
     let mut filled = vec![[0.0; 2]; config.pores.main_region.len()];
-    for (index, element) in occupation.elements.iter().enumerate() {
+    for (index, element) in occupation.elements().iter().enumerate() {
         let [before, now] = &mut filled[config.pores.pore_of[element.region]];
         match occupation.invasions[index] {
             Some(_) if occupation.is_invaded(index) => *now += element.area,
@@ -43,7 +43,7 @@ pub(crate) fn invaded_pores(config: &Configuration, occupation: &Occupation) -> 
 }
 
 fn state(occupation: &Occupation, elements: &[usize]) -> PoreState {
-    let area = |element: usize| occupation.elements[element].area;
+    let area = |element: usize| occupation.elements()[element].area;
     let sum = |keep: &dyn Fn(usize) -> bool| elements.iter().filter(|&&e| keep(e)).map(|&e| area(e)).sum::<f64>();
     let half = 0.5 * sum(&|_| true);
     let is_invaded = sum(&|e| occupation.is_invaded(e)) > half;

@@ -132,7 +132,7 @@ fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
         columns.extend(state_columns(config, occupation.invading, &states));
         if let Some(films) = &occupation.films {
             let mut volumes = vec![0.0; config.pores.main_region.len()];
-            for (element, volume) in occupation.elements.iter().zip(&films.volume) {
+            for (element, volume) in occupation.elements().iter().zip(&films.volume) {
                 volumes[config.pores.pore_of[element.region]] += volume;
             }
             // With `films`, as the last column: volume of its films

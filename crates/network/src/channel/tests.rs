@@ -10,7 +10,7 @@ fn resistance([below, above]: [f64; 2], w: f64, center: Vec2) -> f64 {
         let begin = Vec2::new(0.0, 0.5 * w * side);
         let disc = Vec2::new(0.0, (0.5 * w + radius) * side);
         let curve = Curve::Arc { center: disc, radius, start: -FRAC_PI_2 * side, sweep: PI * side };
-        let pieces = [WallPiece { curve, whole: Curve::circle(disc, radius), shape: 0 }];
+        let pieces = [WallPiece::part_of(&Curve::circle(disc, radius), curve, 0)];
         Wall::new(if radius > 0.0 { &pieces } else { &[] }, side, begin, Vec2::x())
     };
     Channel { walls: [wall(below, -1.0), wall(above, 1.0)], along: Vec2::x(), depth: None }.resistance(center)
@@ -62,7 +62,7 @@ fn no_channel_takes_many_steps_wherever_its_walls_end() {
             let wall = |side: f64, sweep: f64| {
                 let center = Vec2::new(0.0, 1.04 * side);
                 let curve = Curve::Arc { center, radius: 1.0, start: -FRAC_PI_2 * side, sweep: sweep * side };
-                let piece = WallPiece { curve, whole: Curve::circle(center, 1.0), shape: 0 };
+                let piece = WallPiece::part_of(&Curve::circle(center, 1.0), curve, 0);
                 Wall::new(&[piece], side, Vec2::new(0.0, 0.04 * side), Vec2::x())
             };
             let channel = Channel { walls: [wall(-1.0, sweep), wall(1.0, 1.6)], along: Vec2::x(), depth: None };
@@ -88,7 +88,7 @@ fn a_slit_in_a_thin_screen_resists_as_stokes_flow_through_it() {
     let v = Vec2::new;
     let side = |sign: f64| {
         let curve = Curve::Segment { a: v(0.0, sign * 0.5), b: v(0.0, sign * 1e4) };
-        Wall::new(&[WallPiece { curve, whole: curve, shape: 0 }], sign, v(0.0, sign * 0.5), v(1.0, 0.0))
+        Wall::new(&[WallPiece::part_of(&curve, curve, 0)], sign, v(0.0, sign * 0.5), v(1.0, 0.0))
     };
     let resistance =
         2.0 * Channel { walls: [side(-1.0), side(1.0)], along: Vec2::x(), depth: None }.resistance(v(1e3, 0.0));
@@ -104,7 +104,7 @@ fn a_round_pore_behind_a_slit_resists_as_its_arcs_say() {
     let w = 2.0 * start.sin();
     let wall = |side: f64| {
         let curve = Curve::Arc { center: Vec2::zeros(), radius: 1.0, start: PI - side * start, sweep: -side * 2.0 };
-        let piece = WallPiece { curve, whole: curve, shape: 0 };
+        let piece = WallPiece::part_of(&curve, curve, 0);
         Wall::new(&[piece], side, curve.point(0.0), Vec2::x())
     };
     let found = Channel { walls: [wall(-1.0), wall(1.0)], along: Vec2::x(), depth: None }.resistance(Vec2::zeros());
@@ -130,7 +130,7 @@ fn a_channel_with_many_small_bends_resists_as_a_round_one() {
             let at = |i: u32| point(sign, 0.6 * f64::from(i) / f64::from(count));
             let pieces: Vec<WallPiece> = (0..count)
                 .map(|i| Curve::Segment { a: at(i), b: at(i + 1) })
-                .map(|curve| WallPiece { curve, whole: curve, shape: 0 })
+                .map(|curve| WallPiece::part_of(&curve, curve, 0))
                 .collect();
             Wall::new(&pieces, sign, at(0), v(1.0, 0.0))
         })

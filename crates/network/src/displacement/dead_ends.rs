@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use super::divide::holds_segment;
 use super::loops::{Crossing, GateId, Loop, WallPoint, after, before, turn};
-use crate::graph::WallPiece;
+use crate::graph::{Stretch, WallPiece};
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
 
@@ -42,7 +42,7 @@ impl Mouth {
 /// The loop without its dead ends, and the dead ends. `center` is that of the inscribed circle of the region. Segments are numbered from
 /// `segments` on, which is advanced.
 pub(super) fn cut_dead_ends(whole: Loop, center: Vec2, segments: &mut usize) -> Vec<Loop> {
-    let is_bent = |wall: &Vec<WallPiece>| turns(wall).iter().filter(|turn| **turn < 0.0).sum::<f64>() < CONVERGES - PI;
+    let is_bent = |wall: &Stretch| turns(wall).iter().filter(|turn| **turn < 0.0).sum::<f64>() < CONVERGES - PI;
     if whole.has_seam || whole.crossings.len() != whole.walls.len() || !whole.walls.iter().any(is_bent) {
         return vec![whole];
     }
@@ -77,7 +77,7 @@ fn mouth(part: &Loop, center: Vec2) -> Option<Mouth> {
         let (p, q) = (mouth.from.point, mouth.to.point);
         let (middle, half) = (0.5 * (p + q), 0.5 * (q - p).norm());
         let is_apart = |piece: &WallPiece| (piece.curve.project(middle).point - middle).norm() >= FREE * half;
-        let is_free = || part.walls.iter().flatten().all(is_apart);
+        let is_free = || part.walls.iter().flat_map(|wall| wall.iter()).all(is_apart);
         let is_outside = || {
             let inner = inner(&part.walls[mouth.wall], mouth);
             let closing = Curve::Segment { a: q, b: p };
@@ -134,7 +134,7 @@ fn chords(part: &Loop, wall: usize) -> Vec<Mouth> {
 }
 
 /// The wall of a dead end.
-fn inner(wall: &[WallPiece], mouth: &Mouth) -> Vec<WallPiece> {
+fn inner(wall: &[WallPiece], mouth: &Mouth) -> Stretch {
     let Mouth { from, to, .. } = mouth;
     after(&before(wall, *to), *from)
 }
@@ -143,7 +143,8 @@ impl Loop {
     /// The loop without a dead end, and the dead end.
     fn cut_within(&self, mouth: &Mouth, segment: usize) -> [Self; 2] {
         let Mouth { wall, from, to, .. } = mouth;
-        let crossing = |side: usize, from: Vec2, to: Vec2| Crossing { gate: GateId::Segment(segment, side), from, to };
+        let crossing =
+            |side: u8, from: Vec2, to: Vec2| Crossing { gate: GateId::Segment(segment as u32, side), from, to };
         let mut rest = self.clone();
         rest.walls[*wall] = before(&self.walls[*wall], *from);
         rest.walls.insert(wall + 1, after(&self.walls[*wall], *to));

@@ -59,7 +59,7 @@ impl Displacement {
         let of_loop = |(part, element): (&super::loops::Loop, &usize)| {
             let crossings = part.crossings.iter().chain(&part.apart);
             let opening = |crossing: &super::loops::Crossing| match crossing.gate {
-                GateId::Opening(opening) => Some((opening, *element)),
+                GateId::Opening(opening) => Some((opening as usize, *element)),
                 _ => None,
             };
             crossings.filter_map(opening).collect::<Vec<_>>()
@@ -70,7 +70,7 @@ impl Displacement {
     /// The walls around an element.
     pub(crate) fn walls(&self, element: usize) -> impl Iterator<Item = &WallPiece> {
         let loops = self.mesh.elements[element].loops.iter();
-        loops.flat_map(|&part| self.mesh.loops[part].walls.iter().flatten())
+        loops.flat_map(|&part| &self.mesh.loops[part].walls).flat_map(|wall| wall.iter())
     }
 
     /// The menisci in gates, in order.

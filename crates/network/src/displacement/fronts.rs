@@ -131,7 +131,7 @@ impl Displacement {
         for _ in 0..mesh.loops.len() {
             found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
             let crossing = if hand == Hand::Left { wall } else { before(index, wall) };
-            let front = mesh.gate_at[index][crossing]?;
+            let front = mesh.gate_at(index, crossing)?;
             if front == (gate, to) {
                 return None;
             }
@@ -139,7 +139,7 @@ impl Displacement {
             if self.fronts[front.0][front.1].is_some() {
                 return Some(Neighbor { front, ..found });
             }
-            let (beyond, twin, shift) = mesh.twins[index][crossing]?;
+            let (beyond, twin, shift) = mesh.twin(index, crossing)?;
             let element = mesh.element_of[beyond];
             if self.invaded[element] || self.connection.trapped[element] {
                 return None;

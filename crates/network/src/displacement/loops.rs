@@ -1,6 +1,6 @@
 //! Closed loops of walls and gates.
 
-use crate::graph::WallPiece;
+use crate::graph::{Stretch, WallPiece};
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::{ClosestPoint, Curve, cross};
 
@@ -19,18 +19,18 @@ pub(super) struct Crossing {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum GateId {
     /// A throat of the network, from its first (0) or second (1) region.
-    Throat(usize, usize),
+    Throat(u32, u8),
     /// An opening of an open side.
-    Opening(usize),
+    Opening(u32),
     /// A segment that divides a region, with the number of its side.
-    Segment(usize, usize),
+    Segment(u32, u8),
 }
 
 impl GateId {
     /// Numbers a segment, one of a region by itself so far, from `first` on.
     pub(super) fn number_from(&mut self, first: usize) {
         if let Self::Segment(segment, _) = self {
-            *segment += first;
+            *segment += first as u32;
         }
     }
 }
@@ -39,7 +39,7 @@ impl GateId {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Loop {
     /// Stretches of wall; one is empty where two crossings share a point.
-    pub(crate) walls: Vec<Vec<WallPiece>>,
+    pub(crate) walls: Vec<Stretch>,
     /// As many crossings, each after the stretch of the same number.
     pub(crate) crossings: Vec<Crossing>,
     /// Openings along whole sides without walls.
@@ -133,11 +133,18 @@ impl Loop {
         -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()
     }
 
+    /// The same without spare memory.
+    pub(super) fn fitted(mut self) -> Self {
+        self.walls.shrink_to_fit();
+        self.crossings.shrink_to_fit();
+        self
+    }
+
     /// The two parts of the loop on both sides of a segment from a point of wall `a` to one of wall `b`.
     pub(super) fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
         let count = self.walls.len();
         // From the point on wall `from` around to the point on wall `to`, and back along the segment.
-        let part = |(from, start): (usize, WallPoint), (to, end): (usize, WallPoint), side: usize| {
+        let part = |(from, start): (usize, WallPoint), (to, end): (usize, WallPoint), side: u8| {
             let mut part = Self::default();
             let mut k = from;
             while k != to {
@@ -147,28 +154,34 @@ impl Loop {
                 k = (k + 1) % count;
             }
             part.walls.push(before(&self.walls[to], end));
-            part.crossings.push(Crossing { gate: GateId::Segment(segment, side), from: end.point, to: start.point });
-            part
+            part.crossings.push(Crossing {
+                gate: GateId::Segment(segment as u32, side),
+                from: end.point,
+                to: start.point,
+            });
+            part.fitted()
         };
         [part((a, p), (b, q), 0), part((b, q), (a, p), 1)]
     }
 }
 
-pub(super) fn before(wall: &[WallPiece], end: WallPoint) -> Vec<WallPiece> {
+/// A stretch of wall up to a point.
+pub(super) fn before(wall: &[WallPiece], end: WallPoint) -> Stretch {
     let mut kept = wall[..end.piece].to_vec();
     if end.u > 0.0 {
         kept.push(WallPiece { curve: wall[end.piece].curve.part(0.0, end.u), ..wall[end.piece] });
     }
-    kept
+    kept.into()
 }
 
-pub(super) fn after(wall: &[WallPiece], start: WallPoint) -> Vec<WallPiece> {
+/// A stretch of wall from a point on.
+pub(super) fn after(wall: &[WallPiece], start: WallPoint) -> Stretch {
     let mut kept = Vec::new();
     if start.u < 1.0 {
         kept.push(WallPiece { curve: wall[start.piece].curve.part(start.u, 1.0), ..wall[start.piece] });
     }
     kept.extend_from_slice(&wall[start.piece + 1..]);
-    kept
+    kept.into()
 }
 
 /// Whether the wall turns away from the pore by more than rounding where two of its pieces meet (a concave corner of the wall turns

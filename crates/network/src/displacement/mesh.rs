@@ -6,7 +6,7 @@
 use super::dead_ends::cut_dead_ends;
 use super::divide::divide;
 use super::loops::{Crossing, GateId, Loop};
-use crate::graph::{Edge, Network, Pores, Region};
+use crate::graph::{Edge, Network, Pores, Region, Stretch};
 use meniscus_core::math::Vec2;
 use rayon::prelude::*;
 
@@ -45,33 +45,45 @@ pub(super) struct Mesh {
     pub(crate) area: Vec<f64>,
     /// The element of each loop.
     pub(crate) element_of: Vec<usize>,
-    /// The gate of each crossing of each loop, with the end that lies there; `None` at openings and dissolved throats.
-    pub(crate) gate_at: Vec<Vec<Option<FrontId>>>,
-    /// For each crossing of each loop: the loop and the crossing on its other side, and the shift in m from the frame of this loop to that of
-    /// the other one; `None` at openings.
-    pub(crate) twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
+    /// The number of the first crossing of each loop in `beyond`.
+    first_crossing: Vec<u32>,
+    /// What lies beyond each crossing of all loops; `None` at openings.
+    beyond: Vec<Option<Beyond>>,
     pub(crate) elements: Vec<Element>,
     pub(crate) gates: Vec<Gate>,
     /// The side of each opening: left, right, bottom, top are 0 to 3.
     pub(crate) side_of_opening: Vec<usize>,
 }
 
+/// The other side of a crossing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Beyond {
+    /// The loop and the crossing in it.
+    twin: (u32, u32),
+    /// Shift in m from the frame of this loop to that of the other one.
+    shift: Vec2,
+    /// The gate, and whether this loop is on its second side; for a dissolved throat none.
+    gate: Option<(u32, bool)>,
+}
+
 /// The loop of a region.
 pub(super) fn loop_of(region: &Region) -> Loop {
     let mut found = Loop { has_seam: true, ..Loop::default() };
-    let mut wall = Vec::new();
+    let mut wall = Stretch::default();
     // Start after a crossing, so that no stretch of wall is split at the start of the list of edges.
     let first = region.edges.iter().position(|edge| !matches!(edge, Edge::Wall(_))).map_or(0, |k| k + 1);
     for k in 0..region.edges.len() {
         let crossing = match &region.edges[(first + k) % region.edges.len()] {
             Edge::Wall(pieces) => {
-                wall.extend_from_slice(pieces);
+                wall = joined(&wall, pieces);
                 continue;
             }
             Edge::Throat { throat, end, from, to } => {
-                Crossing { gate: GateId::Throat(*throat, *end), from: *from, to: *to }
+                Crossing { gate: GateId::Throat(*throat as u32, *end as u8), from: *from, to: *to }
             }
-            Edge::Opening { opening, from, to } => Crossing { gate: GateId::Opening(*opening), from: *from, to: *to },
+            Edge::Opening { opening, from, to } => {
+                Crossing { gate: GateId::Opening(*opening as u32), from: *from, to: *to }
+            }
         };
         found.walls.push(std::mem::take(&mut wall));
         found.crossings.push(crossing);
@@ -84,7 +96,7 @@ pub(super) fn loop_of(region: &Region) -> Loop {
             found.apart.push(opening);
             let before = found.walls.remove(k);
             let next = k % found.walls.len();
-            found.walls[next].splice(0..0, before);
+            found.walls[next] = joined(&before, &found.walls[next]);
         }
     }
     if found.walls.is_empty() {
@@ -92,7 +104,16 @@ pub(super) fn loop_of(region: &Region) -> Loop {
         found.walls.push(wall);
     }
     found.has_seam = found.connected().1;
-    found
+    found.fitted()
+}
+
+/// Two stretches of wall as one.
+fn joined(one: &Stretch, next: &Stretch) -> Stretch {
+    match (one.is_empty(), next.is_empty()) {
+        (true, _) => Stretch::clone(next),
+        (_, true) => Stretch::clone(one),
+        _ => one.iter().chain(next.iter()).copied().collect(),
+    }
 }
 
 /// Whether a crossing is an opening, or follows others that are, along sides without walls.
@@ -124,7 +145,7 @@ impl Mesh {
             (parts, areas, segments)
         };
         let all: Vec<(Vec<Loop>, Vec<f64>, usize)> = network.regions.par_iter().map(divided).collect();
-        let (mut mesh, mut segments) = (Self::default(), 0);
+        let (mut mesh, mut segments) = (Self::with_room(all.iter().map(|(parts, ..)| parts.len()).sum()), 0);
         for (index, (parts, areas, count)) in all.into_iter().enumerate() {
             mesh.area.extend(areas);
             for mut part in parts {
@@ -137,6 +158,19 @@ impl Mesh {
             segments += count;
         }
         mesh.joined(network, segments, &|_| true)
+    }
+
+    /// A mesh without loops, with memory for so many.
+    fn with_room(loops: usize) -> Self {
+        Self {
+            loops: Vec::with_capacity(loops),
+            region_of: Vec::with_capacity(loops),
+            area: Vec::with_capacity(loops),
+            element_of: Vec::with_capacity(loops),
+            elements: Vec::with_capacity(loops),
+            first_crossing: Vec::with_capacity(loops),
+            ..Self::default()
+        }
     }
 
     /// The pores of the network as elements.
@@ -164,10 +198,12 @@ impl Mesh {
             let element = self.element_of[index];
             for (slot, crossing) in part.crossings.iter().enumerate() {
                 match crossing.gate {
-                    GateId::Throat(throat, end) => crossings[throat][end] = Some((index, slot)),
-                    GateId::Segment(segment, side) => crossings[throats + segment][side] = Some((index, slot)),
+                    GateId::Throat(throat, end) => crossings[throat as usize][end as usize] = Some((index, slot)),
+                    GateId::Segment(segment, side) => {
+                        crossings[throats + segment as usize][side as usize] = Some((index, slot))
+                    }
                     GateId::Opening(opening) => {
-                        self.elements[element].open[network.openings[opening].side] = true;
+                        self.elements[element].open[network.openings[opening as usize].side] = true;
                     }
                 }
             }
@@ -175,29 +211,58 @@ impl Mesh {
         for (part, &element) in self.loops.iter().zip(&self.element_of) {
             for crossing in &part.apart {
                 if let GateId::Opening(opening) = crossing.gate {
-                    self.elements[element].open[network.openings[opening].side] = true;
+                    self.elements[element].open[network.openings[opening as usize].side] = true;
                 }
             }
         }
-        self.gate_at = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
-        self.twins = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
+        self.number_crossings();
         for (k, sides) in crossings.into_iter().enumerate() {
             let throat = (k < throats).then_some(k);
             let [Some(one), Some(other)] = sides else { continue };
             let shift = throat.map_or_else(Vec2::zeros, |throat| network.throats[throat].shift);
-            self.twins[one.0][one.1] = Some((other.0, other.1, shift));
-            self.twins[other.0][other.1] = Some((one.0, one.1, -shift));
-            if throat.is_some_and(|throat| !is_gate(throat)) {
-                continue;
+            let gate = throat.is_none_or(is_gate).then_some(self.gates.len());
+            for (end, (here, there), shift) in [(0, (one, other), shift), (1, (other, one), -shift)] {
+                let at = self.crossing(here.0, here.1);
+                let twin = (there.0 as u32, there.1 as u32);
+                self.beyond[at] = Some(Beyond { twin, shift, gate: gate.map(|gate| (gate as u32, end == 1)) });
+                self.elements[self.element_of[here.0]].gates.extend(gate.map(|gate| (gate, end)));
             }
-            let gate = self.gates.len();
-            for (end, (index, slot)) in [one, other].into_iter().enumerate() {
-                self.gate_at[index][slot] = Some((gate, end));
-                self.elements[self.element_of[index]].gates.push((gate, end));
-            }
-            self.gates.push(Gate { crossings: [one, other], shift, throat });
+            self.gates.extend(gate.map(|_| Gate { crossings: [one, other], shift, throat }));
         }
+        self.elements.iter_mut().for_each(|element| element.gates.shrink_to_fit());
+        self.gates.shrink_to_fit();
         self
+    }
+
+    /// Numbers the crossings of all loops in order, with nothing beyond them.
+    fn number_crossings(&mut self) {
+        let mut count = 0;
+        for part in &self.loops {
+            self.first_crossing.push(count);
+            count += part.crossings.len() as u32;
+        }
+        self.beyond = vec![None; count as usize];
+    }
+
+    /// The number of a crossing of a loop among those of all loops.
+    fn crossing(&self, index: usize, slot: usize) -> usize {
+        self.first_crossing[index] as usize + slot
+    }
+
+    /// The gate at a crossing of a loop, with the end that lies there; `None` at openings and dissolved throats.
+    pub(crate) fn gate_at(&self, index: usize, slot: usize) -> Option<FrontId> {
+        let (gate, end) = self.beyond[self.crossing(index, slot)]?.gate?;
+        Some((gate as usize, usize::from(end)))
+    }
+
+    /// The loop and the crossing on the other side of a crossing of a loop, and the shift in m from the frame of this loop to that of the other one; `None` at
+    /// openings, and in a loop without crossings.
+    pub(crate) fn twin(&self, index: usize, slot: usize) -> Option<(usize, usize, Vec2)> {
+        if slot >= self.loops[index].crossings.len() {
+            return None;
+        }
+        let Beyond { twin: (beyond, twin), shift, .. } = self.beyond[self.crossing(index, slot)]?;
+        Some((beyond as usize, twin as usize, shift))
     }
 
     /// The middle of the chord of a gate in m, in the frame of its first loop.

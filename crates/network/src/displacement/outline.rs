@@ -162,12 +162,11 @@ mod tests {
         let v = Vec2::new;
         let piece = |a, b| {
             let curve = Curve::Segment { a, b };
-            WallPiece { curve, whole: curve, shape: 0 }
+            WallPiece::part_of(&curve, curve, 0)
         };
-        let wall =
-            vec![piece(v(2.0, 0.7), v(1.5, 0.5)), piece(v(1.5, 0.5), v(2.5, 0.2)), piece(v(2.5, 0.2), v(2.0, -0.3))];
+        let wall = [piece(v(2.0, 0.7), v(1.5, 0.5)), piece(v(1.5, 0.5), v(2.5, 0.2)), piece(v(2.5, 0.2), v(2.0, -0.3))];
         let side = Crossing { gate: GateId::Opening(0), from: v(0.0, 0.0), to: v(0.0, 1.0) };
-        Loop { walls: vec![wall], crossings: Vec::new(), apart: vec![side], has_seam: true }
+        Loop { walls: vec![wall.into()], crossings: Vec::new(), apart: vec![side], has_seam: true }
     }
 
     #[test]

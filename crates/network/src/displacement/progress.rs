@@ -33,15 +33,6 @@ pub struct Element {
     pub region: usize,
     /// Area in m².
     pub area: f64,
-    /// Its boundary in m, arcs as chords, for pictures; the last point is not repeated.
-    pub outline: Vec<Vec2>,
-}
-
-impl Element {
-    /// The centroid of its outline in m.
-    pub fn center(&self) -> Vec2 {
-        centroid(&self.outline)
-    }
 }
 
 /// A meniscus in a gate, facing the element on one side of it.
@@ -86,7 +77,7 @@ pub struct Displacement {
 }
 
 /// The division of the pore space into elements, independent of contact angles.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Division {
     pub(super) mesh: Arc<Mesh>,
     elements: Arc<Vec<Element>>,
@@ -101,18 +92,30 @@ impl Division {
             Events::Burst => Mesh::of_pores(network, pores),
         };
         let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
-        let element =
-            |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: outline(&mesh.loops[k]) };
-        let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
+        let elements = mesh.region_of.iter().zip(&mesh.area).map(|(&region, &area)| Element { region, area });
+        let elements = Arc::new(elements.collect());
         Self { mesh: Arc::new(mesh), elements, centers }
     }
-}
 
-impl Division {
+    /// The elements; they tile the pore space.
+    pub(crate) fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// The boundary of an element in m, arcs as chords; the last point is not repeated.
+    pub(crate) fn outline(&self, element: usize) -> Vec<Vec2> {
+        outline(&self.mesh.loops[element])
+    }
+
+    /// The boundaries of all elements.
+    pub(crate) fn outlines(&self) -> Vec<Vec<Vec2>> {
+        self.mesh.loops.iter().map(outline).collect()
+    }
+
     /// The elements of which a disc covers a part, in order.
     pub(super) fn under(&self, disc: &OpenDisc) -> Vec<usize> {
         let mut under: Vec<usize> = (0..self.elements.len())
-            .filter(|&index| disc.covers(&self.elements[index].outline))
+            .filter(|&index| disc.covers(&self.outline(index)))
             .map(|index| self.mesh.element_of[index])
             .collect();
         under.sort_unstable();
@@ -122,7 +125,7 @@ impl Division {
 
     /// The regions of which a disc covers a part, in order.
     pub(crate) fn regions_under(&self, disc: &OpenDisc) -> Vec<usize> {
-        let covered = (0..self.elements.len()).filter(|&index| disc.covers(&self.elements[index].outline));
+        let covered = (0..self.elements.len()).filter(|&index| disc.covers(&self.outline(index)));
         let mut regions: Vec<usize> = covered.map(|index| self.mesh.region_of[index]).collect();
         regions.sort_unstable();
         regions.dedup();
@@ -304,6 +307,16 @@ impl Displacement {
         &self.elements
     }
 
+    /// The boundary of an element in m, arcs as chords, for pictures; the last point is not repeated.
+    pub fn outline(&self, element: usize) -> Vec<Vec2> {
+        outline(&self.mesh.loops[element])
+    }
+
+    /// The centroid of its outline in m.
+    pub(crate) fn center(&self, element: usize) -> Vec2 {
+        centroid(&self.outline(element))
+    }
+
     /// The phase in an element.
     pub fn phase(&self, element: usize) -> Phase {
         if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
@@ -328,7 +341,7 @@ impl Displacement {
 
     /// The walls around an element.
     pub(crate) fn wall_pieces(&self, element: usize) -> impl Iterator<Item = &WallPiece> {
-        self.mesh.loops[element].walls.iter().flatten()
+        self.mesh.loops[element].walls.iter().flat_map(|wall| wall.iter())
     }
 
     /// Applies a curvature in 1/m below that of the next event.

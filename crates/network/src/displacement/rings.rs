@@ -65,7 +65,7 @@ impl Rings {
         };
         for (index, part) in mesh.loops.iter().enumerate() {
             for k in 0..part.crossings.len() {
-                let Some((beyond, twin, _)) = mesh.twins[index][k] else { continue };
+                let Some((beyond, twin, _)) = mesh.twin(index, k) else { continue };
                 // The wall before a chord continues after it on the other side.
                 let next = (twin + 1) % mesh.loops[beyond].walls.len();
                 join(ends[index][k][1], ends[beyond][next][0]);
@@ -99,7 +99,9 @@ impl Rings {
                 let GateId::Opening(opening) = crossing.gate else { continue };
                 let next = (k + 1) % part.walls.len();
                 let beside = [ends[index][k][1], ends[index][next][0]].map(&mut ring);
-                reached.extend(beside.into_iter().flatten().map(|ring| (ring as usize, mesh.side_of_opening[opening])));
+                reached.extend(
+                    beside.into_iter().flatten().map(|ring| (ring as usize, mesh.side_of_opening[opening as usize])),
+                );
             }
         }
         let mut open = vec![[false; 4]; count as usize];

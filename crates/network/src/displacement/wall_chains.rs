@@ -221,7 +221,7 @@ fn following(mesh: &Mesh, mut index: usize, mut wall: usize) -> Option<(usize, u
         if mesh.loops[index].crossings.is_empty() {
             return Some((index, wall));
         }
-        let (beyond, twin, _) = mesh.twins[index][wall]?;
+        let (beyond, twin, _) = mesh.twin(index, wall)?;
         (index, wall) = (beyond, (twin + 1) % mesh.loops[beyond].walls.len());
         if !mesh.loops[index].walls[wall].is_empty() {
             return Some((index, wall));

@@ -59,7 +59,7 @@ pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) 
     others.extend(ahead.before.rest);
     others.extend(ahead.after.rest);
     let own: Vec<Curve> =
-        [&left, &right].into_iter().flat_map(|s| s.behind.iter().chain(&s.ahead)).map(|p| p.whole).collect();
+        [&left, &right].into_iter().flat_map(|s| s.behind.iter().chain(&s.ahead)).map(|p| p.curve).collect();
     let ahead = others.into_iter().map(|piece| untrimmed(piece, &own)).collect();
     GateWalls { left, right, ahead }
 }
@@ -109,7 +109,7 @@ fn ends(mesh: &Mesh, index: usize, slot: usize, center: Vec2) -> Ends {
 
 /// Follows a wall past the gate at the end of its stretch, as long as it is convex and up to half a turn.
 fn extend(mesh: &Mesh, mut index: usize, mut wall: usize, by: Vec2, backwards: bool, parts: &mut Vec<WallPiece>) {
-    if let Some(last) = parts.last_mut().filter(|last| last.whole.is_closed()) {
+    if let Some(last) = parts.last_mut().filter(|last| last.circle().is_some()) {
         last.curve = half_around(&last.curve, backwards);
         return;
     }
@@ -119,7 +119,7 @@ fn extend(mesh: &Mesh, mut index: usize, mut wall: usize, by: Vec2, backwards: b
     for _ in 0..mesh.gates.len() + mesh.loops.len() {
         let crossing = if backwards { wall + mesh.loops[index].walls.len() - 1 } else { wall };
         let crossing = crossing % mesh.loops[index].walls.len();
-        let Some(Some((beyond, twin, shift))) = mesh.twins[index].get(crossing).copied() else { return };
+        let Some((beyond, twin, shift)) = mesh.twin(index, crossing) else { return };
         let (here, there) = (&mesh.loops[index], &mesh.loops[beyond]);
         offset -= if backwards { here.wall_after(crossing) } else { here.wall_before(crossing) };
         offset -= shift;
@@ -168,7 +168,7 @@ fn halves(wall: &[WallPiece]) -> (Vec<WallPiece>, Vec<WallPiece>) {
             second.push(*piece);
         } else {
             let u = (middle - passed) / length;
-            let cut = |curve: Curve| WallPiece { curve, whole: curve, shape: piece.shape };
+            let cut = |curve: Curve| WallPiece::part_of(&curve, curve, piece.shape);
             first.push(cut(piece.curve.part(0.0, u)));
             second.push(cut(piece.curve.part(u, 1.0)));
         }
@@ -255,8 +255,8 @@ fn half_around(arc: &Curve, backwards: bool) -> Curve {
 
 /// A disc ahead is taken as a whole, unless it is one of the walls along which the meniscus moves.
 fn untrimmed(piece: WallPiece, own: &[Curve]) -> WallPiece {
-    let is_seen_whole = piece.whole.is_closed() && own.iter().all(|curve| !is_same(curve, &piece.whole));
-    if is_seen_whole { WallPiece { curve: piece.whole, ..piece } } else { piece }
+    let whole = piece.circle().filter(|circle| own.iter().all(|curve| !is_same(curve, circle)));
+    whole.map_or(piece, |curve| WallPiece { curve, ..piece })
 }
 
 /// Whether two arcs are on the same circle; arcs are only copied and shifted by whole periods.

@@ -132,16 +132,16 @@ fn runs(mut pieces: Vec<([f64; 2], bool)>, period: Option<f64>) -> Vec<[f64; 2]>
 impl Dynamic {
     /// Fingers on lines across the direction from inlet to outlet, on circles about a disc. A finger ends at the defending phase; solids in it count.
     pub(crate) fn fingers(&self, config: &Configuration) -> Fingers {
-        let outlines = self.displacement.elements().iter().enumerate().filter_map(|(index, element)| {
-            let bounds = Bounds::around(element.outline.iter().copied())?;
-            Some((element.outline.as_slice(), bounds, self.share(index) > 0.5))
+        let outlines = (0..self.displacement.elements().len()).filter_map(|element| {
+            let outline = self.displacement.outline(element);
+            Some((Bounds::around(outline.iter().copied())?, outline, self.share(element) > 0.5))
         });
-        let outlines: Vec<(&[Vec2], Bounds, bool)> = outlines.collect();
+        let outlines: Vec<(Bounds, Vec<Vec2>, bool)> = outlines.collect();
         let (mut width, mut fingers, mut lines) = (0.0, 0, 0_usize);
         for line in Line::all(config) {
-            let crossed = outlines.iter().filter(|(_, bounds, _)| line.may_cross(bounds));
+            let crossed = outlines.iter().filter(|(bounds, ..)| line.may_cross(bounds));
             let pieces =
-                crossed.flat_map(|(outline, _, holds)| line.within(outline).into_iter().map(|it| (it, *holds)));
+                crossed.flat_map(|(_, outline, holds)| line.within(outline).into_iter().map(|it| (it, *holds)));
             let runs = runs(pieces.collect(), line.period());
             width = runs.iter().fold(width, |width, [from, to]| width + to - from);
             fingers += runs.len();

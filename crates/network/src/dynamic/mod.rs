@@ -145,7 +145,7 @@ impl Dynamic {
             is_inlet: vec![false; elements],
             reaches: Vec::new(),
             gate_heads: displacement.gates().iter().map(|gate| terms.head(gate.middle)).collect(),
-            element_heads: displacement.elements().iter().map(|element| terms.head(element.center())).collect(),
+            element_heads: (0..elements).map(|element| terms.head(displacement.center(element))).collect(),
             gates: displacement.gates(),
             network,
             terms,

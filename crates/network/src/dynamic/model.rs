@@ -46,13 +46,13 @@ impl DynamicModel {
 
     /// The present state.
     pub(crate) fn occupation(&self) -> Occupation<'_> {
-        let elements = self.dynamic.displacement().elements();
+        let displacement = self.dynamic.displacement();
         let towards_wetting =
             |invasion: Invasion| Invasion { applied: self.invading.towards_wetting(invasion.applied), ..invasion };
         Occupation {
-            elements,
+            displacement,
             invading: self.invading,
-            share: (0..elements.len()).map(|element| self.dynamic.share(element)).collect(),
+            share: (0..displacement.elements().len()).map(|element| self.dynamic.share(element)).collect(),
             trapped: self.dynamic.trapped(),
             invasions: self.dynamic.invasions().iter().map(|invasion| invasion.map(towards_wetting)).collect(),
             passed: self.dynamic.history().iter().map(|event| event.throat).collect(),

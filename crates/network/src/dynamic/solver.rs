@@ -6,7 +6,7 @@ use super::measures;
 use super::model::DynamicModel;
 use super::{Breakthrough, Drive, Dynamic, StepEnd};
 use crate::cycles::FluidPhase;
-use crate::displacement::{Element, EventKind};
+use crate::displacement::{Division, Element, EventKind};
 use crate::laplacian::FlowError;
 use crate::model::Model;
 use crate::solver::{NetworkSolver, results_with};
@@ -55,6 +55,11 @@ impl DynamicSolver {
     /// The elements of the pore space.
     pub fn elements(&self) -> &[Element] {
         self.model.dynamic.displacement().elements()
+    }
+
+    /// The division of the pore space into elements.
+    pub(crate) fn division(&self) -> Division {
+        self.model.dynamic.displacement().division()
     }
 
     /// When the invading phase reached the outlet.

@@ -151,11 +151,8 @@ fn build(
                 let part = if (from, to) == (0.0, 1.0) { curve } else { curve.part(from, to) };
                 moments.curve(&part);
                 wall_length += part.length();
-                stretch.get_or_insert_default().push(WallPiece {
-                    curve: part,
-                    whole: curve,
-                    shape: walls.walls[wall].shape,
-                });
+                let piece = WallPiece::part_of(&curve, part, walls.walls[wall].shape);
+                stretch.get_or_insert_default().push(piece);
                 continue;
             }
             Step::Chord { throat, end, shift } => {
@@ -163,7 +160,7 @@ fn build(
                 let offset = walls.offset(by(shift));
                 let (from, to) = (saddle.contacts[end].point + offset, saddle.contacts[1 - end].point + offset);
                 moments.straight(from, to);
-                edges.push(Edge::Wall(stretch.take().unwrap_or_default()));
+                edges.push(Edge::Wall(stretch.take().unwrap_or_default().into()));
                 edges.push(Edge::Throat { throat, end, from, to });
                 network.throats[throat].regions[end] = number;
                 // `contacts` and `shift` are complete once both regions have been processed.
@@ -179,7 +176,7 @@ fn build(
                 let (from, to) = (part.from + offset, part.to + offset);
                 moments.straight(from, to);
                 if let Some(pieces) = stretch.take() {
-                    edges.push(Edge::Wall(pieces));
+                    edges.push(Edge::Wall(pieces.into()));
                 }
                 edges.push(Edge::Opening { opening: network.openings.len(), from, to });
                 network.openings.push(Opening { side: part.side, ends: [from, to], region: number });
@@ -189,13 +186,11 @@ fn build(
     if let Some(last) = stretch {
         match edges.first_mut() {
             // The loop started within this stretch.
-            Some(Edge::Wall(first)) => {
-                let begin = std::mem::replace(first, last);
-                first.extend(begin);
-            }
-            _ => edges.push(Edge::Wall(last)),
+            Some(Edge::Wall(first)) => *first = last.iter().chain(first.iter()).copied().collect(),
+            _ => edges.push(Edge::Wall(last.into())),
         }
     }
+    edges.shrink_to_fit();
     let moments = moments.closed();
     Some(Region { center, radius, edges, area: -moments.area, wall_length, centroid: moments.centroid() })
 }

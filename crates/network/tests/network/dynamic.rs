@@ -316,8 +316,7 @@ fn the_invading_phase_leaves_when_it_touches_the_outlet() {
         let mut entered = None;
         while dynamic.breakthrough().is_none() {
             dynamic.advance(f64::INFINITY).unwrap();
-            let is_outlet =
-                |e: &usize| dynamic.displacement().elements()[*e].outline.iter().any(|x| x.x > SIZE[0] * (1.0 - 1e-9));
+            let is_outlet = |e: &usize| dynamic.displacement().outline(*e).iter().any(|x| x.x > SIZE[0] * (1.0 - 1e-9));
             let mut at_outlet = (0..dynamic.displacement().elements().len()).filter(is_outlet);
             if entered.is_none() && at_outlet.any(|e| dynamic.invasions()[e].is_some()) {
                 entered = Some(dynamic.invading_area());

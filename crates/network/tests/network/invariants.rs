@@ -63,7 +63,7 @@ pub fn violations(geometry: &Geometry, network: &Network) -> Vec<String> {
 /// The pieces of wall of a boundary.
 fn walls(edges: &[Edge]) -> impl Iterator<Item = &meniscus_network::graph::WallPiece> {
     edges.iter().flat_map(|edge| match edge {
-        Edge::Wall(pieces) => pieces.as_slice(),
+        Edge::Wall(pieces) => &pieces[..],
         _ => &[],
     })
 }
