@@ -20,18 +20,21 @@ pub(crate) fn frame(time: f64, snapshot: &Snapshot<'_>, layers: &[Layer<'_>]) ->
 
 /// All output of a solver at its end.
 pub(crate) fn all(solver: &dyn Solver) -> Data {
-    let mut results = solver.results();
+    let results = solver.results();
     let mut layers = solver.layers();
-    layers.append(&mut results.layers);
+    layers.extend(results.layers.iter().map(|layer| layer()));
     let clock = solver.clock();
     Data::group([
         ("frame", frame(solver.time(), &solver.snapshot(), &layers)),
         ("clock", Data::group([("name", Data::text(clock.name)), ("unit", Data::text(clock.unit))])),
         ("solid", lines(&solver.outline())),
-        ("tables", Data::Group(results.tables.iter().map(|it| (it.name.to_owned(), table(it))).collect())),
+        (
+            "tables",
+            Data::Group(results.tables.iter().map(|it| it()).map(|it| (it.name.to_owned(), table(&it))).collect()),
+        ),
         (
             "documents",
-            Data::Group(results.documents.into_iter().map(|it| (it.name.to_owned(), Data::Text(it.text))).collect()),
+            Data::Group(results.documents.iter().map(|it| (it.name.to_owned(), Data::Text(it.text()))).collect()),
         ),
         ("diagrams", Data::Group(solver.diagrams().iter().map(|it| (it.name.to_owned(), diagram(it))).collect())),
     ])

@@ -122,7 +122,7 @@ pub(crate) fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
         solver.step(f64::INFINITY)?;
     }
     let documents = solver.results().documents;
-    documents.into_iter().find(|one| one.name == AT_END).map(|one| one.text).ok_or(AvalancheError::NoNetwork)
+    documents.iter().find(|one| one.name == AT_END).map(|one| one.text()).ok_or(AvalancheError::NoNetwork)
 }
 
 /// Whether the requested event has happened.

@@ -18,7 +18,9 @@ use super::simulation::{Outcome, Simulation, Watcher};
 use super::sink::{Start, compression};
 use super::steady::Steadiness;
 use meniscus_case::Case;
+use meniscus_core::snapshot::Layer;
 use meniscus_core::solver::{Clock, Results, Series, Solver, StateError};
+use meniscus_core::table::Document;
 use meniscus_output::checksum::fnv1a;
 use meniscus_output::picture::{PictureError, picture, region_map_picture};
 use meniscus_output::{FileError, atomic, diagram, table, vtk};
@@ -119,9 +121,8 @@ pub fn execute(
     // The record that could not be written is the error to report, not the report after it.
     ended?;
     written?;
-    let results = solver.results();
     let picture = draw(job, solver)?;
-    write_results(job, &results)?;
+    write_results(job, &solver.results())?;
     draw_diagrams(job, solver)?;
     Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
 }
@@ -230,17 +231,21 @@ fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureErr
     }
 }
 
-/// Writes tables, layers, texts and further maps.
+/// Writes tables, layers and texts, as many at a time as there are threads.
 fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> {
     let folder = &job.folder;
-    results.tables.par_iter().try_for_each(|one| table::write(folder, one))?;
-    results.layers.par_iter().try_for_each(|layer| {
+    let layer = |layer: &Layer<'_>| {
         let path = folder.join(format!("{}.vtu", layer.name));
-        let content = vtk::layer(layer, compression(&job.case.output))
+        let file = vtk::layer(layer, compression(&job.case.output))
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write(&path, &content)
-    })?;
-    results.documents.iter().try_for_each(|one| atomic::write(&folder.join(one.name), one.text.as_bytes()))
+        atomic::write_with(&path, |to| file.write(to))
+    };
+    let text = |one: &Document<'_>| atomic::write_with(&folder.join(one.name), |to| one.write(to));
+    let texts = || results.documents.par_iter().with_max_len(1).try_for_each(text);
+    let tables = || results.tables.par_iter().with_max_len(1).try_for_each(|one| table::write(folder, &one()));
+    let layers = || results.layers.par_iter().with_max_len(1).try_for_each(|one| layer(&one()));
+    let (texts, (tables, layers)) = rayon::join(texts, || rayon::join(tables, layers));
+    texts.and(tables).and(layers)
 }
 
 /// Draws the diagrams of the run; any that cannot be drawn are left out.

@@ -89,9 +89,10 @@ impl Records {
     pub(crate) fn write_outline(&self, solver: &dyn Solver) -> Result<(), FileError> {
         let Some(files) = &self.files else { return Ok(()) };
         let path = files.folder.join("solid.vtu");
-        let outline = vtk::lines(&solver.outline(), files.compression)
+        let outline = solver.outline();
+        let file = vtk::lines(&outline, files.compression)
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write(&path, &outline)
+        atomic::write_with(&path, |to| file.write(to))
     }
 
     /// Writes `units.json`.

@@ -9,7 +9,7 @@ use super::memory;
 use super::schedule::Schedule;
 use super::sink::compression;
 use meniscus_case::{Case, Model};
-use meniscus_core::solver::{Series, Solver, SolverError};
+use meniscus_core::solver::{Results, Series, Solver, SolverError};
 use meniscus_output::vtk;
 
 /// Number of trial steps; the first ones set up what later ones reuse.
@@ -100,12 +100,17 @@ fn trial_within(
             snapshot.grid.as_ref().map(|grid| vtk::grid(grid, form)),
             snapshot.interface.as_ref().map(|interface| vtk::lines(interface, form)),
         ];
-        let layers: Vec<_> = solver.layers().iter().map(|layer| vtk::layer(layer, form)).collect();
+        let files: Vec<_> = files.into_iter().flatten().flatten().map(|file| file.bytes()).collect();
+        let layers: Vec<_> =
+            solver.layers().iter().filter_map(|layer| Some(vtk::layer(layer, form).ok()?.bytes())).collect();
         (snapshot, files, layers)
     });
     let (ending, at_end) = timed(|| {
-        let results = solver.results();
-        (drawn(case, solver).ok(), results.layers.len(), solver.measures(&Series::default()).len())
+        let Results { tables, layers, documents } = solver.results();
+        let _ = tables.iter().map(|table| table().columns.len()).sum::<usize>();
+        let _ = layers.iter().map(|layer| layer().cells.len()).sum::<usize>();
+        let _ = documents.iter().map(|document| document.text().len()).sum::<usize>();
+        (drawn(case, solver).ok(), solver.measures(&Series::default()).len())
     });
     drop((sample, state, waiting, frame, ending));
     let output = &case.output;

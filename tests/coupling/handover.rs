@@ -257,7 +257,7 @@ fn a_direct_simulation_that_begins_at_rest_stays_there_and_hands_the_same_phases
     assert!(0.01 * speed / 0.03 < 0.01, "{speed} m/s");
     let results = solver.results();
     let back = results.documents.iter().find(|document| document.name == "at-end.json").unwrap();
-    let back = NetworkState::read(&back.text).unwrap();
+    let back = NetworkState::read(&back.text()).unwrap();
     let phases = |state: &NetworkState| state.elements.iter().map(|it| it.phase).collect::<Vec<_>>();
     assert_eq!(phases(&back), phases(&kept));
 }

@@ -23,15 +23,18 @@ impl Clock {
     pub const TIME: Self = Self { name: "time", symbol: "t", unit: "s" };
 }
 
+/// Output that is made when it is written, so that not all of it is in memory at a time.
+pub type Made<'a, T> = Box<dyn Fn() -> T + Send + Sync + 'a>;
+
 /// The final output of a solver besides measures and diagrams.
-#[derive(Debug, Clone, Default)]
+#[derive(Default)]
 pub struct Results<'a> {
     /// Tables, written as CSV.
-    pub tables: Vec<Table>,
+    pub tables: Vec<Made<'a, Table>>,
     /// Layers, written as VTK.
-    pub layers: Vec<Layer<'a>>,
+    pub layers: Vec<Made<'a, Layer<'a>>>,
     /// Texts, written unchanged.
-    pub documents: Vec<Document>,
+    pub documents: Vec<Document<'a>>,
 }
 
 /// One named number of the time series.

@@ -1,5 +1,7 @@
 //! Tables and texts as data: the final output of a solver, written by other modules.
 
+use std::io::{self, Write};
+
 /// The values of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
@@ -46,11 +48,35 @@ pub struct Table {
     pub columns: Vec<Column>,
 }
 
-/// A text file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Document {
+/// Writes a text.
+type Written<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + Send + Sync + 'a>;
+
+/// A text file, made when it is written.
+pub struct Document<'a> {
     /// Name of the file.
     pub name: &'static str,
-    /// Its content.
-    pub text: String,
+    content: Written<'a>,
+}
+
+impl<'a> Document<'a> {
+    /// A file with the text that `content` writes.
+    pub fn new(name: &'static str, content: impl Fn(&mut dyn Write) -> io::Result<()> + Send + Sync + 'a) -> Self {
+        Self { name, content: Box::new(content) }
+    }
+
+    /// Writes its text.
+    ///
+    /// # Errors
+    /// Those of the target.
+    pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        (self.content)(to)
+    }
+
+    /// Its text.
+    pub fn text(&self) -> String {
+        let mut bytes = Vec::new();
+        // Writing to memory cannot fail.
+        self.write(&mut bytes).unwrap_or_default();
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
 }

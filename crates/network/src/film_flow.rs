@@ -32,6 +32,11 @@ pub(crate) fn of_walls(depth: f64, angles: &[f64], plates: [f64; 2]) -> Vec<f64>
 pub(crate) struct FilmFlow(pub(crate) Beside);
 
 impl FilmFlow {
+    /// Whether no film conducts.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.conductors.is_empty()
+    }
+
     /// The films at an applied (p_n - p_w)/σ of `curvature` (1/m) in all regions that the wetting phase does not hold.
     pub(crate) fn new(
         network: &Network,

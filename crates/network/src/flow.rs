@@ -11,6 +11,7 @@ use super::model::{Configuration, Model};
 use super::permeability::{Drive, Paths, with_films};
 use super::tables::numbers;
 use meniscus_case::network::FilmModel;
+use meniscus_core::solver::Made;
 use meniscus_core::table::Table;
 
 /// Number of states of a half cycle, including first and last, at which relative permeabilities are computed.
@@ -78,7 +79,7 @@ fn wetting_regions(config: &Configuration, cycles: &Cycles, displaced: f64) -> (
 }
 
 /// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, k_r of wetting and non-wetting phase.
-pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
+fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
     let config = &model.config;
     let drive = config.inlet.and_then(|inlet| drive(config, inlet / 2));
     let (Some(cycles), Some(drive)) = (model.cycles.as_ref(), drive) else { return Vec::new() };
@@ -96,8 +97,12 @@ pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
         let films = film_flow(config, cycles, displaced, &wetting, drive);
         // The flow of a phase that does not percolate is rounding error.
         const ROUNDING: f64 = 1.0e-12;
-        let ratio =
-            |(holds, films): (Vec<bool>, &FilmFlow)| of_phase(model, drive, &holds, films).unwrap_or(f64::NAN) / whole;
+        let ratio = |(holds, films): (Vec<bool>, &FilmFlow)| {
+            if films.is_empty() && holds.iter().all(|&holds| holds) {
+                return 1.0;
+            }
+            of_phase(model, drive, &holds, films).unwrap_or(f64::NAN) / whole
+        };
         let none = FilmFlow::default();
         let [wetting, other] =
             [(wetting, &films), (other, &none)].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
@@ -130,12 +135,22 @@ fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
     holds
 }
 
-/// `relative_permeability.csv`; `None` if nothing flows from side to side.
-pub(crate) fn table(model: &Model) -> Option<Table> {
-    let states: Vec<f64> = (0..STATES).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
-    let rows = relative(model, &states);
+/// Relative permeabilities at the end of the last half cycle; `None` if nothing flows from inlet to outlet.
+pub(crate) fn relative_at_end(model: &Model) -> Option<[f64; 3]> {
+    *model.relative_at_end.get_or_init(|| relative(model, &[1.0]).first().copied())
+}
+
+/// `relative_permeability.csv`; `None` if nothing flows from inlet to outlet.
+pub(crate) fn table(model: &Model) -> Option<Made<'_, Table>> {
+    let last = relative_at_end(model)?;
+    Some(Box::new(move || permeabilities(model, last)))
+}
+
+fn permeabilities(model: &Model, last: [f64; 3]) -> Table {
+    let states: Vec<f64> = (0..STATES - 1).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
+    let rows = [relative(model, &states), vec![last]].concat();
     let column = |side: usize| rows.iter().map(move |row| row[side]);
-    (!rows.is_empty()).then(|| Table {
+    Table {
         name: "relative_permeability",
         columns: vec![
             // Wetting saturation; with [`network.region`](../network/theory.md#a-region) that of the region
@@ -145,5 +160,5 @@ pub(crate) fn table(model: &Model) -> Option<Table> {
             // Permeability of the throats between regions of the non-wetting phase over that of all
             numbers("relative_permeability_non_wetting", column(2)),
         ],
-    })
+    }
 }

@@ -294,7 +294,7 @@ fn unknowns(nodes: usize, edges: &[Edge]) -> (Vec<[Option<usize>; 2]>, usize) {
 }
 
 /// A union-find forest whose roots label the components of the graph by their smallest index.
-fn parts(nodes: usize, ends: impl Iterator<Item = Ends>) -> Vec<usize> {
+pub(crate) fn parts(nodes: usize, ends: impl Iterator<Item = Ends>) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..nodes).collect();
     for (from, to) in ends {
         if let Some(to) = to {

@@ -87,9 +87,8 @@ fn plain_regions(config: &Configuration) -> Layer<'static> {
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 
-/// `pores.vtu` and `throats.vtu`.
-pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
-    let config = &model.config;
+/// `pores.vtu`.
+pub(crate) fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Layer<'static> {
     let count = config.pores.main_region.len();
     let centers: Vec<Vec2> = (0..count).map(|pore| center(config, pore)).collect();
     let mut fields = vec![
@@ -109,12 +108,11 @@ pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) 
         ]);
     }
     let cells = (0..count as u32).map(|pore| vec![pore]).collect();
-    let pores = Layer { name: "pores", kind: CellKind::Points, points: centers.into(), cells, fields };
-    vec![pores, throats(model)]
+    Layer { name: "pores", kind: CellKind::Points, points: centers.into(), cells, fields }
 }
 
-/// Two lines per throat, from the pore centers to the middle of the throat.
-fn throats(model: &Model) -> Layer<'static> {
+/// `throats.vtu`: two lines per throat, from the pore centers to the middle of the throat.
+pub(crate) fn throats(model: &Model) -> Layer<'static> {
     let config = &model.config;
     let (points, cells) =
         joined(kept(config).flat_map(|throat| {

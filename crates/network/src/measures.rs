@@ -2,7 +2,7 @@
 
 use super::cycles::{Cycles, FluidPhase};
 use super::displacement::EventKind;
-use super::flow::{along, drive, relative};
+use super::flow::{along, drive, relative_at_end};
 use super::model::{Configuration, Model};
 use super::permeability::Drive;
 use super::tables::{kept, length};
@@ -124,7 +124,7 @@ fn permeabilities(model: &Model) -> Vec<Measure> {
         measure(name, along(model, axis), "m2").by(format!("{method}{notes}"))
     };
     let mut found = vec![of_axis(0, x), of_axis(1, y)];
-    if let [[_, wetting, other]] = relative(model, &[1.0])[..] {
+    if let Some([_, wetting, other]) = relative_at_end(model) {
         let method = "permeability of the throats between regions that the phase holds, and of rings of films, over that of all throats, at the end of the last half cycle";
         found.push(measure(of_wetting, wetting, "").by(method));
         found.push(measure(of_other, other, "").by(method));

@@ -140,12 +140,20 @@ pub(crate) struct Model {
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceLock<Vec<f64>>,
     trapped_otherwise: OnceLock<Vec<(FilmModel, f64)>>,
+    /// Wetting saturation and relative permeabilities at the end.
+    pub(super) relative_at_end: OnceLock<Option<[f64; 3]>>,
 }
 
 impl Model {
     /// A network in its initial state.
     pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
-        Self { config, cycles, entry_curvatures: OnceLock::new(), trapped_otherwise: OnceLock::new() }
+        Self {
+            config,
+            cycles,
+            entry_curvatures: OnceLock::new(),
+            trapped_otherwise: OnceLock::new(),
+            relative_at_end: OnceLock::new(),
+        }
     }
 
     /// Entry curvatures of the throats of the network in drainage, in 1/m; `None` without a contact angle.

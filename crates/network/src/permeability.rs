@@ -6,8 +6,8 @@
 
 use crate::conductance::opening_conductances;
 use crate::graph::Network;
-use crate::laplacian::{Conductor, Edge, FlowError, Laplacian};
-use meniscus_core::math::Bounds;
+use crate::laplacian::{Conductor, Edge, FlowError, Laplacian, parts};
+use meniscus_core::math::{Bounds, root};
 
 /// The drive of the flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,11 +53,23 @@ pub(crate) fn with_films(
 ) -> Result<f64, FlowError> {
     let all = conductors(network, paths, domain, drive).into_iter().chain(films.conductors.iter().copied());
     let (edges, conductors): (Vec<Edge>, Vec<Conductor>) = all.unzip();
+    if matches!(drive, Drive::Sides(_)) && !leads_through(network.regions.len() + films.nodes, &edges, &conductors) {
+        return Ok(0.0);
+    }
     let flow = Laplacian::new(network.regions.len() + films.nodes, edges)?.solve(&conductors, &[])?;
     let dissipation: f64 = flow.through.iter().zip(&conductors).map(|(q, c)| q * q / c.conductance).sum();
     // The flow minimizes the dissipation among all pressures with this drive.
     let most: f64 = conductors.iter().map(|c| c.conductance * c.jump * c.jump).sum();
     Ok(if dissipation > ROUNDING * most { dissipation / domain.area() } else { 0.0 })
+}
+
+/// Whether conductors join given pressures that differ.
+fn leads_through(nodes: usize, edges: &[Edge], conductors: &[Conductor]) -> bool {
+    let mut parent = parts(nodes, edges.iter().map(|edge| edge.ends));
+    let mut pressure_of = vec![None; nodes];
+    edges.iter().zip(conductors).filter(|(edge, _)| edge.ends.1.is_none()).any(|(edge, conductor)| {
+        *pressure_of[root(&mut parent, edge.ends.0)].get_or_insert(conductor.jump) != conductor.jump
+    })
 }
 
 /// The conductors under a mean gradient of 1.

@@ -3,6 +3,7 @@
 //! One step performs one event at the clock reading before it and then advances the clock to the volume displaced after it. So a record
 //! between two events shows the state after the first of them.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::cycles::Cycles;
@@ -160,12 +161,13 @@ impl Solver for NetworkSolver {
 
     fn results(&self) -> Results<'_> {
         let (config, cycles) = (self.config(), self.cycles());
-        let mut results = results_with(&self.model, cycles.map(Cycles::occupation).as_ref());
-        let (states, flow) = rayon::join(|| state::documents(&self.model), || flow::table(&self.model));
-        results.tables.extend(cycles.map(|cycles| tables::events(config, cycles)));
-        results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(config, cycles)));
-        results.documents.extend(states);
-        results.tables.extend(flow);
+        let mut results = results_with(&self.model, cycles.map(Cycles::occupation));
+        if let Some(cycles) = cycles {
+            results.tables.push(Box::new(|| tables::events(config, cycles)));
+            results.tables.extend(tables::capillary_pressure(config, cycles));
+        }
+        results.tables.extend(flow::table(&self.model));
+        results.documents.extend(state::documents(&self.model));
         results
     }
 
@@ -212,12 +214,19 @@ impl Solver for NetworkSolver {
 }
 
 /// The results at the end, without events.
-pub(super) fn results_with(model: &Model, occupation: Option<&Occupation>) -> Results<'static> {
-    let mut results = Results {
-        tables: tables::all(model, occupation),
-        layers: layers::pores_and_throats(model, occupation),
+pub(super) fn results_with<'a>(model: &'a Model, occupation: Option<Occupation<'a>>) -> Results<'a> {
+    let occupation = occupation.map(Arc::new);
+    let (of_pores, of_throats, of_layer) = (occupation.clone(), occupation.clone(), occupation);
+    Results {
+        tables: vec![
+            Box::new(move || tables::pores(&model.config, of_pores.as_deref())),
+            Box::new(move || tables::throats(model, of_throats.as_deref())),
+            Box::new(|| openpnm::table(model)),
+        ],
+        layers: vec![
+            Box::new(move || layers::pores(&model.config, of_layer.as_deref())),
+            Box::new(|| layers::throats(model)),
+        ],
         documents: vec![summary::network_json(model)],
-    };
-    results.tables.push(openpnm::table(model));
-    results
+    }
 }

@@ -1,7 +1,11 @@
 //! `at-breakthrough.json` and `at-end.json`: states from which a network or a direct simulation of the same geometry can start.
 
+use std::io::{self, Write};
+
+use serde::{Serialize, Serializer};
+
 use super::cycles::{Cycles, HalfCycle};
-use super::displacement::{Beginning, Element, Phase, StaticMeniscus};
+use super::displacement::{Beginning, Element, Interfaces, Phase, StaticMeniscus};
 use super::model::{Configuration, Model};
 use super::moment::Moment;
 use meniscus_case::FluidPhase;
@@ -17,30 +21,58 @@ const NOTE_OF_CHIP: &str = "SI units; curvatures are those in the plane, above 0
                             curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
 /// The states at first breakthrough and at the present moment.
-pub(crate) fn documents(model: &Model) -> Vec<Document> {
+pub(crate) fn documents(model: &Model) -> Vec<Document<'_>> {
     let Some(cycles) = &model.cycles else { return Vec::new() };
-    let at = |name: &'static str, moment: &Moment| document(name, &model.config, cycles, moment);
-    let (breakthrough, end) = rayon::join(
-        || cycles.breakthrough().map(|moment| at("at-breakthrough.json", moment)),
-        || at("at-end.json", &cycles.moment()),
-    );
-    breakthrough.into_iter().chain([end]).collect()
+    let end = Document::new("at-end.json", |to| write(to, &model.config, cycles, &cycles.moment()));
+    let at_breakthrough =
+        |moment| Document::new("at-breakthrough.json", move |to| write(to, &model.config, cycles, moment));
+    cycles.breakthrough().map(at_breakthrough).into_iter().chain([end]).collect()
 }
 
-fn document(name: &'static str, config: &Configuration, cycles: &Cycles, moment: &Moment) -> Document {
-    // Writing numbers, text and lists cannot fail.
-    let text = serde_json::to_string(&state(config, cycles.half_cycles(), moment)).unwrap_or_default();
-    Document { name, text: text + "\n" }
+/// Items that are made when they are serialized.
+struct Made<F>(F);
+
+impl<F: Fn() -> I, I: Iterator<Item: Serialize>> Serialize for Made<F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((self.0)())
+    }
+}
+
+/// Writes the state at a moment, element by element.
+fn write(to: &mut dyn Write, config: &Configuration, cycles: &Cycles, moment: &Moment) -> io::Result<()> {
+    let half = &cycles.half_cycles()[moment.half_cycle];
+    let (resting, interfaces) = interfaces(config, half, moment);
+    let elements = Made(|| elements(half, moment, &interfaces.trapped));
+    let outline = Made(|| interfaces.outline.iter().map(Curve::numbers));
+    serde_json::to_writer(&mut *to, &described(config, (half, moment), (resting, &interfaces), elements, outline))?;
+    to.write_all(b"\n")
 }
 
 /// The state at a moment.
 pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
     let half = &half_cycles[moment.half_cycle];
-    let displacement = &moment.displacement;
+    let (resting, interfaces) = interfaces(config, half, moment);
+    let elements = elements(half, moment, &interfaces.trapped).collect();
+    let outline = interfaces.outline.iter().map(Curve::numbers).collect();
+    described(config, (half, moment), (resting, &interfaces), elements, outline)
+}
+
+/// The curvature in 1/m at which menisci rest at a moment, and all interfaces.
+fn interfaces(config: &Configuration, half: &HalfCycle, moment: &Moment) -> (f64, Interfaces) {
     // Before the first event menisci are as flat as their walls allow.
     let largest = moment.applied.map_or(0.0, |applied| half.invading.towards_wetting(applied));
-    let resting = displacement.resting_curvature(largest);
-    let interfaces = displacement.interfaces(resting, config.bounds, config.periodic);
+    let resting = moment.displacement.resting_curvature(largest);
+    (resting, moment.displacement.interfaces(resting, config.bounds, config.periodic))
+}
+
+fn described<E, O>(
+    config: &Configuration,
+    (half, moment): (&HalfCycle, &Moment),
+    (resting, interfaces): (f64, &Interfaces),
+    elements: E,
+    outline: O,
+) -> NetworkState<E, O> {
+    let displacement = &moment.displacement;
     let applied = half.invading.towards_wetting(resting);
     let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
     let invading = interfaces.area.map(|area| area / pore_area);
@@ -65,16 +97,20 @@ pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment)
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,
         saturation_with_menisci: invading.map(|share| half.invading.saturation(share)),
-        elements: elements(half, moment, &interfaces.trapped),
+        elements,
         menisci: interfaces.menisci.iter().map(|one| meniscus(half, one)).collect(),
         snapped_throats: displacement.closed_throats(),
-        invading_outline: interfaces.outline.iter().map(Curve::numbers).collect(),
+        invading_outline: outline,
     }
 }
 
-fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementState> {
+fn elements<'a>(
+    half: &'a HalfCycle,
+    moment: &'a Moment,
+    trapped: &'a [f64],
+) -> impl Iterator<Item = ElementState> + 'a {
     let displacement = &moment.displacement;
-    let element = |(index, element): (usize, &Element)| {
+    let element = move |(index, element): (usize, &Element)| {
         let trapped_at = trapped[index];
         ElementState {
             phase: match displacement.phase(index) {
@@ -87,7 +123,7 @@ fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementSt
             boundary: displacement.boundary(index).iter().map(Curve::numbers).collect(),
         }
     };
-    displacement.elements().iter().enumerate().map(element).collect()
+    displacement.elements().iter().enumerate().map(element)
 }
 
 fn meniscus(half: &HalfCycle, meniscus: &StaticMeniscus) -> MeniscusState {

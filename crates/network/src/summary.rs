@@ -85,7 +85,7 @@ struct Description<'a> {
     units: &'static str,
     definitions: Definitions,
     half_cycles: Vec<HalfCycleDescription<'a>>,
-    merges: Merges,
+    merges: Merges<'a>,
 }
 
 #[derive(Serialize)]
@@ -128,9 +128,9 @@ struct HalfCycleDescription<'a> {
 
 /// Sufficient data to merge again with another ratio.
 #[derive(Serialize)]
-struct Merges {
+struct Merges<'a> {
     note: &'static str,
-    region_pore: Vec<usize>,
+    region_pore: &'a [usize],
     region_radius_m: Vec<f64>,
     region_area_m2: Vec<f64>,
     throat_regions: Vec<[usize; 2]>,
@@ -142,11 +142,19 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
                       both radii, and the joined pore keeps the larger one";
 
 /// `network.json`.
-pub(crate) fn network_json(model: &Model) -> Document {
+pub(crate) fn network_json(model: &Model) -> Document<'_> {
+    Document::new("network.json", |to| {
+        serde_json::to_writer(&mut *to, &description(model))?;
+        to.write_all(b"\n")
+    })
+}
+
+fn description(model: &Model) -> Description<'_> {
     let config = &model.config;
     let (network, pores) = (&config.network, &config.pores);
     let [inlet, outlet] = config.ends();
-    let description = Description {
+    // Non-finite numbers become null.
+    Description {
         version: env!("CARGO_PKG_VERSION"),
         persistence: pores.persistence,
         geometry_hash: config.geometry_hash.clone(),
@@ -165,16 +173,13 @@ pub(crate) fn network_json(model: &Model) -> Document {
         half_cycles: model.cycles.as_ref().map_or_else(Vec::new, half_cycles),
         merges: Merges {
             note: MERGES,
-            region_pore: pores.pore_of.clone(),
+            region_pore: &pores.pore_of,
             region_radius_m: network.regions.iter().map(|region| region.radius).collect(),
             region_area_m2: network.regions.iter().map(|region| region.area).collect(),
             throat_regions: network.throats.iter().map(|throat| throat.regions).collect(),
             throat_width_m: network.throats.iter().map(|throat| throat.width).collect(),
         },
-    };
-    // Writing numbers, text and lists cannot fail; non-finite numbers become null.
-    let text = serde_json::to_string(&description).unwrap_or_default();
-    Document { name: "network.json", text: text + "\n" }
+    }
 }
 
 fn half_cycles(cycles: &Cycles) -> Vec<HalfCycleDescription<'_>> {

@@ -7,12 +7,8 @@ use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::summary::{PoreState, pore_states};
 use meniscus_core::math::Vec2;
+use meniscus_core::solver::Made;
 use meniscus_core::table::{Cells, Column, Table};
-
-/// The tables of pores and throats.
-pub(crate) fn all(model: &Model, occupation: Option<&Occupation>) -> Vec<Table> {
-    vec![pores(&model.config, occupation), throats(model, occupation)]
-}
 
 pub(super) fn numbers(name: &'static str, values: impl IntoIterator<Item = f64>) -> Column {
     Column { name, cells: Cells::Numbers(values.into_iter().collect()) }
@@ -102,7 +98,8 @@ fn of_pores(config: &Configuration, regions: &[bool]) -> Vec<bool> {
     found
 }
 
-fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
+/// `pores.csv`.
+pub(crate) fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
     let all = || 0..config.pores.main_region.len();
     let mut columns = vec![
         // Number of the pore, from 0
@@ -162,7 +159,8 @@ fn state_columns(config: &Configuration, invading: FluidPhase, states: &[PoreSta
     ]
 }
 
-fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
+/// `throats.csv`.
+pub(crate) fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
     let config = &model.config;
     let of = |value: fn(&Throat) -> f64| kept(config).map(value);
     let mut columns = vec![
@@ -302,10 +300,15 @@ fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
 }
 
 /// `capillary_pressure.csv`: the curve with the films at every pressure; `None` without films.
-pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Table> {
-    let (curve, tension) = (&cycles.record.curve, config.tension?);
+pub(crate) fn capillary_pressure<'a>(config: &Configuration, cycles: &'a Cycles) -> Option<Made<'a, Table>> {
+    let tension = config.tension.filter(|_| cycles.has_films())?;
+    Some(Box::new(move || curve(cycles, tension)))
+}
+
+fn curve(cycles: &Cycles, tension: f64) -> Table {
+    let curve = &cycles.record.curve;
     let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].invading.process();
-    cycles.has_films().then(|| Table {
+    Table {
         name: "capillary_pressure",
         columns: vec![
             // Number of the half cycle, from 1
@@ -319,5 +322,5 @@ pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Opt
             // The part of the saturation in films
             numbers("film_saturation", curve.iter().map(|point| point.film_saturation)),
         ],
-    })
+    }
 }

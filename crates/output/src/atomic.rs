@@ -4,8 +4,8 @@
 //! carries a checksum (see [`super::restart`]).
 
 use std::fmt::Display;
-use std::fs;
-use std::io::{self, ErrorKind};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// A file or folder that cannot be read or written.
@@ -114,11 +114,24 @@ pub fn make_folder(path: &Path) -> Result<(), FileError> {
 /// # Errors
 /// [`FileError`]; then the old file, if any, is unchanged and nothing else is left behind.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// The same with what `content` writes.
+///
+/// # Errors
+/// [`FileError`]; then the old file, if any, is unchanged and nothing else is left behind.
+pub fn write_with(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), FileError> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         make_folder(folder)?;
     }
     let temporary = temporary_name(path);
-    let done = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    let written = File::create(&temporary).and_then(|file| {
+        let mut file = BufWriter::new(file);
+        content(&mut file)?;
+        file.flush()
+    });
+    let done = written.and_then(|()| fs::rename(&temporary, path));
     if done.is_err() {
         // Best effort: the first error is the one to report.
         let _ = fs::remove_file(&temporary);

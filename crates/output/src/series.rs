@@ -3,6 +3,7 @@
 //! Numbers are printed with as many digits as are needed to read back the same value; a value that does not exist (NaN, infinite) is an empty field, which
 //! pandas reads as NaN.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::atomic::FileError;
@@ -106,14 +107,23 @@ impl SeriesFile {
 }
 
 /// The shortest text that reads back as `value`; empty if it is not finite.
-pub(super) fn number(value: f64) -> String {
-    if !value.is_finite() {
-        String::new()
+fn number(value: f64) -> String {
+    let mut text = String::new();
+    add_number(&mut text, value);
+    text
+}
+
+/// Adds that text.
+pub(super) fn add_number(text: &mut String, value: f64) {
+    let added = if !value.is_finite() {
+        Ok(())
     } else if value.fract() == 0.0 && value.abs() < LARGEST_WHOLE {
-        format!("{value}")
+        write!(text, "{value}")
     } else {
-        format!("{value:?}")
-    }
+        write!(text, "{value:?}")
+    };
+    // Writing to memory cannot fail.
+    added.unwrap_or_default();
 }
 
 /// Reads a series back; empty fields become NaN.

@@ -1,9 +1,11 @@
 //! Tables as CSV files: numbers with as many digits as are needed to read back the same value, empty fields for missing values.
 
+use std::fmt::Write as _;
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::atomic::{self, FileError};
-use super::series::number;
+use super::series::add_number;
 use meniscus_core::table::{Cells, Table};
 
 /// Writes `NAME.csv` in `folder`.
@@ -13,29 +15,40 @@ pub fn write(folder: &Path, table: &Table) -> Result<(), FileError> {
 
 /// Writes the table as this file.
 pub fn write_at(path: &Path, table: &Table) -> Result<(), FileError> {
-    atomic::write(path, &text(table).map_err(FileError::format(path))?)
+    atomic::write_with(path, |file| write_rows(table, file))
 }
 
-fn text(table: &Table) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+/// Writes the table row by row.
+fn write_rows(table: &Table, to: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(to);
     writer.write_record(table.columns.iter().map(|column| column.name))?;
     let rows = table.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0);
+    let mut field = String::new();
     for row in 0..rows {
-        writer.write_record(table.columns.iter().map(|column| field(&column.cells, row)))?;
+        for column in &table.columns {
+            field.clear();
+            add_field(&mut field, &column.cells, row);
+            writer.write_field(&field)?;
+        }
+        writer.write_record(None::<&[u8]>)?;
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    writer.flush()
 }
 
-fn field(cells: &Cells, row: usize) -> String {
-    let text = match cells {
+/// Adds the text of a cell, nothing where there is none.
+fn add_field(text: &mut String, cells: &Cells, row: usize) {
+    // Writing to memory cannot fail.
+    let mut add_index = |index: usize| write!(text, "{index}").unwrap_or_default();
+    match cells {
+        Cells::Counts(values) => values.get(row).copied().into_iter().for_each(add_index),
+        Cells::Indices(values) => values.get(row).copied().flatten().into_iter().for_each(&mut add_index),
         // Adding zero turns minus zero into zero.
-        Cells::Numbers(values) => values.get(row).map(|&value| number(value + 0.0)),
-        Cells::Counts(values) => values.get(row).map(ToString::to_string),
-        Cells::Indices(values) => values.get(row).copied().flatten().map(|value| value.to_string()),
-        Cells::Flags(values) => values.get(row).map(|&value| if value { "True" } else { "False" }.to_owned()),
-        Cells::Words(values) => values.get(row).map(|&word| word.to_owned()),
-    };
-    text.unwrap_or_default()
+        Cells::Numbers(values) => values.get(row).into_iter().for_each(|value| add_number(text, value + 0.0)),
+        Cells::Flags(values) => {
+            values.get(row).into_iter().for_each(|&is| text.push_str(if is { "True" } else { "False" }))
+        }
+        Cells::Words(values) => values.get(row).into_iter().for_each(|word| text.push_str(word)),
+    }
 }
 
 #[cfg(test)]
@@ -55,7 +68,9 @@ mod tests {
                 column("word", Cells::Words(vec!["a,b"])),
             ],
         };
-        let text = String::from_utf8(text(&table).unwrap()).unwrap();
+        let mut text = Vec::new();
+        write_rows(&table, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
         assert_eq!(text, "x,label,place,word\n0.30000000000000004,True,,\"a,b\"\n,False,7,\n0,,,\n");
     }
 }

@@ -1,17 +1,16 @@
-//! Snapshots as VTK XML files, written by vtkio: each an unstructured grid (`.vtu`), which meshio reads, too.
+//! Snapshots as VTK XML files: each an unstructured grid (`.vtu`), which meshio reads, too.
 //!
 //! Particles are vertices, a grid is quadrilaterals, lines are segments, since meshio does not support polylines. Points of the plane get z = 0 and vectors
 //! three components. Arrays are inline, in base 64 and compressed by zlib: the form that every reader supports. LZ4 is faster, but read by VTK, ParaView and
-//! pyvista only. Times are in the `.pvd`, units in `units.json` of the output folder.
+//! pyvista only. Times are in the `.pvd`, units in `units.json` of the output folder. A file is written array by array: none is in memory as text.
 
-mod document;
+mod arrays;
 pub mod read;
 
-use vtkio::IOBuffer;
-use vtkio::model::CellType;
-use vtkio::xml::{AttributeData, DataArray};
+use std::borrow::Cow;
+use std::io::{self, Write};
 
-use self::document::{Arrays, Piece};
+use self::arrays::Arrays;
 use meniscus_core::math::Vec2;
 use meniscus_core::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
 
@@ -40,110 +39,175 @@ pub enum VtkError {
         /// Number of points.
         expected: usize,
     },
-    /// The error of the writing library.
-    #[error("the file cannot be written: {0}")]
-    Write(String),
+}
+
+/// A file ready to be written.
+#[derive(Debug)]
+pub struct VtkFile<'a> {
+    points: Cow<'a, [Vec2]>,
+    cells: Cells<'a>,
+    on_points: &'a [Field<'a>],
+    on_cells: &'a [Field<'a>],
+    compression: Compression,
 }
 
 /// Points, each a vertex.
-pub fn points(cloud: &Cloud<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let cells = Cells::new(CellType::Vertex, (0..cloud.points.len()).map(|point| [point]));
-    file(&cloud.points, cells, [&cloud.fields, &[]], compression)
+///
+/// # Errors
+/// [`VtkError`] if a field has another length than its points.
+pub fn points<'a>(cloud: &'a Cloud<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
+    file((&*cloud.points).into(), Cells::Vertices(cloud.points.len()), [&cloud.fields, &[]], compression)
 }
 
 /// Fields on the corners of the quadrilaterals of a regular grid.
-pub fn grid(grid: &Grid<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let [columns, rows] = grid.counts;
-    let nodes = (1..rows).flat_map(|row| (1..columns).map(move |column| row * columns + column));
-    let corners = nodes.map(|node| [node - columns - 1, node - columns, node, node - 1]);
-    file(&grid.points(), Cells::new(CellType::Quad, corners), [&grid.fields, &[]], compression)
+///
+/// # Errors
+/// [`VtkError`] if a field has another length than its nodes.
+pub fn grid<'a>(grid: &'a Grid<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
+    file(grid.points().into(), Cells::Quadrilaterals(grid.counts), [&grid.fields, &[]], compression)
 }
 
 /// Polylines, segment by segment.
-pub fn lines(lines: &Lines<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let segments = lines.lines.iter().flat_map(|line| line.windows(2)).map(indices);
-    file(&lines.points, Cells::new(CellType::Line, segments), [&lines.fields, &[]], compression)
+///
+/// # Errors
+/// [`VtkError`] if a field has another length than its vertices.
+pub fn lines<'a>(lines: &'a Lines<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
+    file((&*lines.points).into(), Cells::Segments(&lines.lines), [&lines.fields, &[]], compression)
 }
 
 /// Cells with fields on them.
-pub fn layer(layer: &Layer<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let kind = match layer.kind {
-        CellKind::Points => CellType::Vertex,
-        CellKind::Lines => CellType::Line,
-        CellKind::Polygons => CellType::Polygon,
-    };
-    let cells = Cells::new(kind, layer.cells.iter().map(|cell| indices(cell)));
-    file(&layer.points, cells, [&[], &layer.fields], compression)
-}
-
-fn indices(cell: &[u32]) -> impl Iterator<Item = usize> {
-    cell.iter().map(|&point| point as usize)
-}
-
-/// Cells of one kind: their points, one after the other, and the end offset of each.
-struct Cells {
-    kind: CellType,
-    connectivity: Vec<i64>,
-    offsets: Vec<i64>,
-}
-
-impl Cells {
-    fn new(kind: CellType, of: impl Iterator<Item = impl IntoIterator<Item = usize>>) -> Self {
-        let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
-        for cell in of {
-            connectivity.extend(cell.into_iter().map(|point| point as i64));
-            offsets.push(connectivity.len() as i64);
-        }
-        Self { kind, connectivity, offsets }
-    }
+///
+/// # Errors
+/// [`VtkError`] if a field has another length than its cells.
+pub fn layer<'a>(layer: &'a Layer<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
+    file((&*layer.points).into(), Cells::Given(layer.kind, &layer.cells), [&[], &layer.fields], compression)
 }
 
 /// The file of points and cells with fields on both.
-fn file(
-    points: &[Vec2],
-    cells: Cells,
-    [on_points, on_cells]: [&[Field<'_>]; 2],
+fn file<'a>(
+    points: Cow<'a, [Vec2]>,
+    cells: Cells<'a>,
+    [on_points, on_cells]: [&'a [Field<'a>]; 2],
     compression: Compression,
-) -> Result<Vec<u8>, VtkError> {
-    let (number_of_points, number_of_cells) = (points.len(), cells.offsets.len());
-    let types = vec![cells.kind as u8; number_of_cells];
-    let piece = Piece {
-        number_of_points,
-        number_of_cells,
-        point_data: data(on_points, number_of_points, compression)?,
-        cell_data: data(on_cells, number_of_cells, compression)?,
-        points: Arrays { arrays: vec![vectors("Points", points, compression)?] },
-        cells: Arrays {
-            arrays: vec![
-                compression.array("connectivity", 1, cells.connectivity.into())?,
-                compression.array("offsets", 1, cells.offsets.into())?,
-                compression.array("types", 1, types.into())?,
-            ],
-        },
-    };
-    piece.into_file(compression)
+) -> Result<VtkFile<'a>, VtkError> {
+    for (fields, expected) in [(on_points, points.len()), (on_cells, cells.count())] {
+        let length = |field: &Field<'_>| match &field.values {
+            Values::Scalar(values) => values.len(),
+            Values::Vector(values) => values.len(),
+            Values::Integer(values) => values.len(),
+        };
+        if let Some(field) = fields.iter().find(|field| length(field) != expected) {
+            return Err(VtkError::Length { name: field.name, found: length(field), expected });
+        }
+    }
+    Ok(VtkFile { points, cells, on_points, on_cells, compression })
+}
+
+/// Cells of one kind.
+#[derive(Debug)]
+enum Cells<'a> {
+    /// One for each of so many points.
+    Vertices(usize),
+    /// Those of a grid of so many nodes along x and y.
+    Quadrilaterals([usize; 2]),
+    /// The segments of polylines.
+    Segments(&'a [Vec<u32>]),
+    /// Cells of a layer.
+    Given(CellKind, &'a [Vec<u32>]),
+}
+
+/// Numbers of points or of cells, in order.
+type Numbers<'a> = Box<dyn Iterator<Item = i64> + 'a>;
+
+impl Cells<'_> {
+    /// The number of their kind in VTK, and of the points of each, if all have as many.
+    fn kind(&self) -> (u8, Option<i64>) {
+        match self {
+            Self::Vertices(_) | Self::Given(CellKind::Points, _) => (1, Some(1)),
+            Self::Segments(_) => (3, Some(2)),
+            Self::Given(CellKind::Lines, _) => (3, None),
+            Self::Given(CellKind::Polygons, _) => (7, None),
+            Self::Quadrilaterals(_) => (9, Some(4)),
+        }
+    }
+
+    fn count(&self) -> usize {
+        match self {
+            Self::Vertices(count) => *count,
+            Self::Quadrilaterals([columns, rows]) => columns.saturating_sub(1) * rows.saturating_sub(1),
+            Self::Segments(lines) => lines.iter().map(|line| line.len().saturating_sub(1)).sum(),
+            Self::Given(_, cells) => cells.len(),
+        }
+    }
+
+    /// The points of all cells.
+    fn connectivity(&self) -> Numbers<'_> {
+        match self {
+            Self::Vertices(count) => Box::new(0..*count as i64),
+            Self::Quadrilaterals([columns, rows]) => {
+                let [columns, rows] = [*columns as i64, *rows as i64];
+                let nodes = (1..rows).flat_map(move |row| (1..columns).map(move |column| row * columns + column));
+                Box::new(nodes.flat_map(move |node| [node - columns - 1, node - columns, node, node - 1]))
+            }
+            Self::Segments(lines) => {
+                Box::new(lines.iter().flat_map(|line| line.windows(2)).flatten().map(|&it| it.into()))
+            }
+            Self::Given(_, cells) => Box::new(cells.iter().flatten().map(|&point| point.into())),
+        }
+    }
+
+    /// The end of each cell in the connectivity.
+    fn offsets(&self) -> Numbers<'_> {
+        match (self.kind().1, self) {
+            (None, Self::Given(_, cells)) => Box::new(cells.iter().scan(0, |end, cell| {
+                *end += cell.len() as i64;
+                Some(*end)
+            })),
+            (each, _) => Box::new((1..=self.count() as i64).map(move |cell| cell * each.unwrap_or_default())),
+        }
+    }
+}
+
+impl VtkFile<'_> {
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// Those of the target.
+    pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        let (points, cells) = (self.points.len(), self.cells.count());
+        let mut arrays = Arrays::new(to, self.compression);
+        arrays.begin(points, cells)?;
+        arrays.group("PointData", self.on_points, field)?;
+        arrays.group("CellData", self.on_cells, field)?;
+        arrays.group("Points", &[&*self.points], |arrays, points| vectors(arrays, "Points", points))?;
+        arrays.group("Cells", &[&self.cells], |arrays, cells| {
+            arrays.array("connectivity", 1, cells.connectivity())?;
+            arrays.array("offsets", 1, cells.offsets())?;
+            arrays.array("types", 1, std::iter::repeat_n(cells.kind().0, cells.count()))
+        })?;
+        arrays.end()
+    }
+
+    /// The content of the file.
+    pub fn bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        // Writing to memory cannot fail.
+        let _ = self.write(&mut bytes);
+        bytes
+    }
 }
 
 /// 2-vectors with a third component of 0.
-fn vectors(name: &str, values: &[Vec2], compression: Compression) -> Result<DataArray, VtkError> {
-    compression.array(name, 3, values.iter().flat_map(|v| [v.x, v.y, 0.0]).collect::<IOBuffer>())
+fn vectors(arrays: &mut Arrays<'_>, name: &str, values: &[Vec2]) -> io::Result<()> {
+    arrays.array(name, 3, values.iter().flat_map(|v| [v.x, v.y, 0.0]))
 }
 
-/// The fields, each with `expected` values.
-fn data(fields: &[Field<'_>], expected: usize, compression: Compression) -> Result<AttributeData, VtkError> {
-    let mut data = AttributeData::default();
-    for Field { name, values, .. } in fields {
-        let (found, array) = match values {
-            Values::Scalar(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
-            Values::Vector(values) => (values.len(), vectors(name, values, compression)),
-            Values::Integer(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
-        };
-        if found != expected {
-            return Err(VtkError::Length { name, found, expected });
-        }
-        data.data_array.push(array?);
+fn field(arrays: &mut Arrays<'_>, Field { name, values, .. }: &Field<'_>) -> io::Result<()> {
+    match values {
+        Values::Scalar(values) => arrays.array(name, 1, values.iter().copied()),
+        Values::Vector(values) => vectors(arrays, name, values),
+        Values::Integer(values) => arrays.array(name, 1, values.iter().copied()),
     }
-    Ok(data)
 }
 
 #[cfg(test)]
@@ -155,7 +219,8 @@ mod python;
 mod tests {
     use std::borrow::Cow;
 
-    use vtkio::model::{Attribute, DataSet, UnstructuredGridPiece, VertexNumbers, Vtk};
+    use vtkio::IOBuffer;
+    use vtkio::model::{Attribute, CellType, DataSet, UnstructuredGridPiece, VertexNumbers, Vtk};
 
     use super::*;
 
@@ -183,7 +248,7 @@ mod tests {
     fn a_grid_has_its_nodes_in_double_precision_at_the_corners_of_quadrilaterals() {
         let (origin, spacing) = (Vec2::new(0.1e-3, -1.0 / 3.0), Vec2::new(1.0e-5, 2.0e-5));
         let example = Grid { origin, spacing, counts: [3, 2], fields: fields(6) };
-        let piece = parse(&grid(&example, Compression::None).unwrap());
+        let piece = parse(&grid(&example, Compression::None).unwrap().bytes());
         let nodes = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0]];
         assert_eq!(piece.points, coordinates(&nodes.map(|[x, y]| origin + Vec2::new(x, y).component_mul(&spacing))));
         assert_eq!(piece.cells.types, [CellType::Quad; 2]);
@@ -196,7 +261,7 @@ mod tests {
         let vertices = [Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
         let example =
             Lines { points: Cow::Borrowed(&vertices), lines: vec![vec![0, 1, 2, 0], vec![1, 2]], fields: fields(3) };
-        let piece = parse(&lines(&example, Compression::None).unwrap());
+        let piece = parse(&lines(&example, Compression::None).unwrap().bytes());
         assert_eq!(piece.cells.types, [CellType::Line; 4]);
         let (connectivity, offsets) = (vec![0, 1, 1, 2, 2, 0, 1, 2], vec![2, 4, 6, 8]);
         assert_eq!(piece.cells.cell_verts, VertexNumbers::XML { connectivity, offsets });
@@ -207,7 +272,7 @@ mod tests {
         let vertices = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec2::new(x, y));
         let (points, cells) = (Cow::Borrowed(&vertices[..]), vec![vec![0, 1, 2, 3], vec![0, 1, 2]]);
         let example = Layer { name: "regions", kind: CellKind::Polygons, points, cells, fields: fields(2) };
-        let piece = parse(&layer(&example, Compression::None).unwrap());
+        let piece = parse(&layer(&example, Compression::None).unwrap().bytes());
         assert_eq!(piece.cells.types, [CellType::Polygon; 2]);
         assert_eq!((piece.data.point.len(), piece.data.cell.len()), (0, 3));
     }
@@ -216,7 +281,7 @@ mod tests {
     fn files_without_points_tell_their_counts_and_the_names_of_their_fields() {
         for compression in [Compression::None, Compression::Zlib, Compression::Lz4] {
             let nothing = Lines { fields: fields(0), ..Lines::default() };
-            let text = String::from_utf8(lines(&nothing, compression).unwrap()).unwrap();
+            let text = String::from_utf8(lines(&nothing, compression).unwrap().bytes()).unwrap();
             for expected in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
                 assert!(text.contains(expected), "{text}");
             }
@@ -233,7 +298,7 @@ mod tests {
             let given: Vec<Vec2> = (0..count).map(|i| Vec2::new((i as f64).sqrt(), -(i as f64) / 7.0)).collect();
             let cloud = Cloud { points: given.clone().into(), fields: fields(count) };
             for (compression, name) in &names {
-                let content = points(&cloud, *compression).unwrap();
+                let content = points(&cloud, *compression).unwrap().bytes();
                 if *compression == Compression::None {
                     let piece = parse(&content);
                     assert_eq!(piece.points, coordinates(&given), "{count} points");

@@ -37,7 +37,7 @@ pub struct SphSolver {
 }
 
 /// Generator of a document from the particles and the capillary pressure in Pa.
-pub(crate) type StateExport = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
+pub(crate) type StateExport = Box<dyn Fn(&Particles, f64) -> Document<'static> + Send + Sync>;
 
 /// The fixed surroundings of the flow.
 pub(crate) struct Surroundings {

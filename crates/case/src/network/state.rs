@@ -21,9 +21,11 @@ const SAME_PLACE: f64 = 1e-7;
 
 /// The state of a displacement. SI units; curvatures in 1/m, above 0 if the interface bulges into the wetting phase, so that tension times curvature is p_n -
 /// p_w.
+///
+/// To be written without all of it in memory, the elements and the outline may be of other types that serialize to the same lists.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct NetworkState {
+pub struct NetworkState<Elements = Vec<ElementState>, Outline = Vec<Vec<f64>>> {
     /// Version of the format: [`FORMAT`].
     pub format: u32,
     /// The program that wrote it.
@@ -57,14 +59,14 @@ pub struct NetworkState {
     /// The same including the areas swept by menisci beyond their gates; `None` if not known.
     pub saturation_with_menisci: Option<f64>,
     /// The parts of the pore space that events fill.
-    pub elements: Vec<ElementState>,
+    pub elements: Elements,
     /// All menisci.
     pub menisci: Vec<MeniscusState>,
     /// Throats of the network before the merge that were closed by snap-off of films; they have no volume. Absent if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub snapped_throats: Vec<usize>,
     /// The boundary of the invading phase along walls and menisci, the phase on its left: numbers of segments and arcs.
-    pub invading_outline: Vec<Vec<f64>>,
+    pub invading_outline: Outline,
 }
 
 /// A part of the pore space that is filled at once.

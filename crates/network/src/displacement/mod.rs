@@ -42,7 +42,7 @@ pub(crate) use self::outline::{centroid, contains, edges};
 pub(crate) use self::progress::Division;
 pub use self::progress::{Displacement, Element, Phase};
 pub use self::sequence::Event;
-pub(crate) use self::static_menisci::{Beginning, StaticMeniscus};
+pub(crate) use self::static_menisci::{Beginning, Interfaces, StaticMeniscus};
 use super::graph::Region;
 pub use meniscus_case::network::{Events, Trapping};
 use meniscus_core::math::Vec2;

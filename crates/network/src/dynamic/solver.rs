@@ -213,8 +213,8 @@ impl Solver for DynamicSolver {
     }
 
     fn results(&self) -> Results<'_> {
-        let mut results = results_with(&self.model.quasi_static, Some(&self.model.occupation()));
-        results.tables.push(measures::events(&self.model));
+        let mut results = results_with(&self.model.quasi_static, Some(self.model.occupation()));
+        results.tables.push(Box::new(|| measures::events(&self.model)));
         results
     }
 

@@ -36,7 +36,7 @@ fn a_network_that_is_read_back_has_its_throats_again() {
     let solver = to_the_end(&loaded(&named("drainage"), &[]));
     let folder = tempfile::tempdir().unwrap();
     for table in solver.results().tables {
-        meniscus_output::table::write(folder.path(), &table).unwrap();
+        meniscus_output::table::write(folder.path(), &table()).unwrap();
     }
     let mut reader = csv::Reader::from_path(folder.path().join("throats.csv")).unwrap();
     let rows = reader.deserialize().map(|row| row.unwrap()).collect::<Vec<BTreeMap<String, String>>>();

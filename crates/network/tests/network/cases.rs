@@ -157,7 +157,7 @@ fn tables_of_pores_throats_and_openpnm_tell_the_same_network() {
     let found = measures(solver.as_ref());
     let folder = tempfile::tempdir().unwrap();
     for table in solver.results().tables {
-        meniscus_output::table::write(folder.path(), &table).unwrap();
+        meniscus_output::table::write(folder.path(), &table()).unwrap();
     }
     let rows = |name: &str| {
         let mut reader = csv::Reader::from_path(folder.path().join(name)).unwrap();

@@ -21,7 +21,7 @@ pub(super) fn state_export(start: &Start, tension: f64, depth: Option<Depth>) ->
         let fluid = (0..particles.fluids).map(|a| (particles.position[a], particles.phase[a]));
         // Serialization of numbers, strings and lists of them cannot fail.
         let text = serde_json::to_string(&state(&start, tension, depth, fluid, pressure)).unwrap_or_default();
-        Document { name: "at-end.json", text: text + "\n" }
+        Document::new("at-end.json", move |to| to.write_all(text.as_bytes()).and_then(|()| to.write_all(b"\n")))
     })
 }
 
