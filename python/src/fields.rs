@@ -99,13 +99,22 @@ fn lines(lines: &Lines<'_>) -> Data {
 
 fn layer(layer: &Layer<'_>) -> Data {
     let [values, units] = fields(&layer.fields);
-    let [vertices, ends] = cells(layer.cells.iter());
+    let vertices: Vec<Vec2> = layer.vertices().collect();
+    let numbers = Data::Integers((0..vertices.len() as i64).collect(), 1);
+    let ends = Data::Integers(layer.ends.iter().map(|&end| i64::from(end)).collect(), 1);
     let kind = match layer.kind {
         CellKind::Points => "points",
         CellKind::Lines => "lines",
         CellKind::Polygons => "polygons",
     };
-    Data::group([("kind", Data::text(kind)), ("points", points(&layer.points)), vertices, ends, values, units])
+    Data::group([
+        ("kind", Data::text(kind)),
+        ("points", points(&vertices)),
+        ("vertices", numbers),
+        ("ends", ends),
+        values,
+        units,
+    ])
 }
 
 /// As in the file: absent numbers are NaN, absent indices are -1, and minus zero is zero.

@@ -19,12 +19,11 @@ use super::sink::{Start, compression};
 use super::steady::Steadiness;
 use meniscus_case::Case;
 use meniscus_core::snapshot::Layer;
-use meniscus_core::solver::{Clock, Results, Series, Solver, StateError};
+use meniscus_core::solver::{Clock, Measure, Results, Series, Solver, StateError};
 use meniscus_core::table::Document;
 use meniscus_output::checksum::fnv1a;
 use meniscus_output::picture::{PictureError, picture, region_map_picture};
 use meniscus_output::{FileError, atomic, diagram, table, vtk};
-use rayon::prelude::*;
 
 /// Whether a run is new or resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,9 +109,11 @@ pub fn execute(
     let was_at_end = start != Start::New && simulation.is_at_end();
     let started = if start == Start::New { simulation.begin() } else { simulation.resume() };
     let ended = started.and_then(|()| simulation.run());
+    // While the last records are still being written.
+    let measures = solver.measures(records.series());
     let written = records.finish();
     let ended = ended.and_then(|outcome| written.map(|()| outcome));
-    let mut report = report(job.case, job.resolved, solver, &records, &ended);
+    let mut report = report((job.case, job.resolved), solver, &records, measures, &ended);
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     report.cpu_s = records.processor_time();
     // The report of the run that reached the end has more: its wall time, its machine.
@@ -144,7 +145,8 @@ pub fn run_in_memory(
     let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
     let started = simulation.begin();
     let ended = started.and_then(|()| simulation.run());
-    let mut report = report(case, resolved, solver, &records, &ended);
+    let measures = solver.measures(records.series());
+    let mut report = report((case, resolved), solver, &records, measures, &ended);
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     ended?;
     Ok((report, records.into_series()))
@@ -163,12 +165,12 @@ fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, 
     }
 }
 
-/// The report of a run, given how it `ended`, without its total times.
+/// The report of a run of a case, as resolved, given its `measures` and how it `ended`, without its total times.
 fn report(
-    case: &Case,
-    resolved: &str,
+    (case, resolved): (&Case, &str),
     solver: &dyn Solver,
     records: &Records,
+    measures: Vec<Measure>,
     ended: &Result<Outcome, FileError>,
 ) -> Report {
     let (mut status, error) = match ended {
@@ -181,7 +183,7 @@ fn report(
     let fastest = records.series().column("max_speed_m_per_s").filter(|speed| speed.is_finite()).fold(0.0, f64::max);
     let length = Length::of(case);
     let steady = case.steady.map(|steady| Steadiness::of(records.series(), &solver.watched(), &steady));
-    let mut measures = readings(solver.measures(records.series()), records.series(), &solver.watched());
+    let mut measures = readings(measures, records.series(), &solver.watched());
     measures.extend(steady.iter().map(report::steady_reading));
     let mut expectations = verdicts(&case.expect, &measures);
     if status != Status::Done {
@@ -231,7 +233,7 @@ fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureErr
     }
 }
 
-/// Writes tables, layers and texts, as many at a time as there are threads.
+/// Writes tables, layers and texts: one of each at a time, which are then in memory.
 fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> {
     let folder = &job.folder;
     let layer = |layer: &Layer<'_>| {
@@ -241,9 +243,9 @@ fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> 
         atomic::write_with(&path, |to| file.write(to))
     };
     let text = |one: &Document<'_>| atomic::write_with(&folder.join(one.name), |to| one.write(to));
-    let texts = || results.documents.par_iter().with_max_len(1).try_for_each(text);
-    let tables = || results.tables.par_iter().with_max_len(1).try_for_each(|one| table::write(folder, &one()));
-    let layers = || results.layers.par_iter().with_max_len(1).try_for_each(|one| layer(&one()));
+    let texts = || results.documents.iter().try_for_each(text);
+    let tables = || results.tables.iter().try_for_each(|one| table::write(folder, &one()));
+    let layers = || results.layers.iter().try_for_each(|one| layer(&one()));
     let (texts, (tables, layers)) = rayon::join(texts, || rayon::join(tables, layers));
     texts.and(tables).and(layers)
 }

@@ -108,7 +108,7 @@ fn trial_within(
     let (ending, at_end) = timed(|| {
         let Results { tables, layers, documents } = solver.results();
         let _ = tables.iter().map(|table| table().columns.len()).sum::<usize>();
-        let _ = layers.iter().map(|layer| layer().cells.len()).sum::<usize>();
+        let _ = layers.iter().map(|layer| layer().ends.len()).sum::<usize>();
         let _ = documents.iter().map(|document| document.text().len()).sum::<usize>();
         (drawn(case, solver).ok(), solver.measures(&Series::default()).len())
     });

@@ -2,6 +2,9 @@
 
 use std::borrow::Cow;
 
+use crate::math::Vec2;
+use crate::snapshot::Outlines;
+
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -201,10 +204,12 @@ pub enum Tone {
 }
 
 /// An area of the plane.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
-    /// Its closed boundary in m, without repetition of the first vertex.
-    pub boundary: Vec<[f64; 2]>,
+    /// The number of its outline.
+    pub cell: usize,
+    /// Its shift from there in m.
+    pub shift: Vec2,
     /// Its color.
     pub tone: Tone,
 }
@@ -231,6 +236,8 @@ pub struct RegionMap {
     pub frame: Frame,
     /// The areas.
     pub areas: Vec<Area>,
+    /// Their outlines.
+    pub outlines: Outlines,
     /// Thin dark lines: walls.
     pub walls: Vec<Vec<[f64; 2]>>,
     /// Lines with their name in the legend.
@@ -239,6 +246,14 @@ pub struct RegionMap {
     pub throats: (&'static str, Vec<Vec<[f64; 2]>>),
     /// Lines of a width in m with their name in the legend and their color, below the others and within the areas: films.
     pub strips: (&'static str, Color, Vec<Strip>),
+}
+
+impl RegionMap {
+    /// The vertices of an area in m.
+    pub fn boundary(&self, area: &Area) -> impl Iterator<Item = Vec2> + use<> {
+        let shift = area.shift;
+        self.outlines.of(area.cell).into_iter().map(move |point| point + shift)
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! The state of a solver for output: points, named fields with units, a grid, lines. Independent of solver types.
 
 use std::borrow::Cow;
+use std::fmt;
+use std::sync::Arc;
 
 use crate::math::Vec2;
 
@@ -144,19 +146,68 @@ pub struct Layer<'a> {
     pub name: &'static str,
     /// Kind of its cells.
     pub kind: CellKind,
-    /// Vertices in m.
-    pub points: Cow<'a, [Vec2]>,
-    /// Each cell as indices into `points`.
-    pub cells: Vec<Vec<u32>>,
-    /// Fields on the cells, each as long as `cells`.
+    /// The vertices of all cells, one cell after the other.
+    pub vertices: Vertices<'a>,
+    /// The end of each cell among the vertices.
+    pub ends: Vec<u32>,
+    /// Fields on the cells, each as long as `ends`.
     pub fields: Vec<Field<'a>>,
 }
 
+/// The vertices of cells.
+#[derive(Debug, Clone)]
+pub enum Vertices<'a> {
+    /// In m.
+    Given(Cow<'a, [Vec2]>),
+    /// Those of the outlines.
+    Made(Outlines),
+}
+
+/// Something that has an outline for each of its cells.
+pub trait Outlined: Send + Sync {
+    /// The vertices of a cell in m, without repetition of the first one.
+    fn outline(&self, cell: usize) -> Vec<Vec2>;
+}
+
+/// Outlines of cells, made when they are drawn or written: together they take more memory than the cells. Those of the same source are equal.
+#[derive(Clone)]
+pub struct Outlines(pub Arc<dyn Outlined>);
+
+impl Outlines {
+    /// The vertices of a cell in m, without repetition of the first one.
+    pub fn of(&self, cell: usize) -> Vec<Vec2> {
+        self.0.outline(cell)
+    }
+}
+
+impl PartialEq for Outlines {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::addr_eq(Arc::as_ptr(&self.0), Arc::as_ptr(&other.0))
+    }
+}
+
+impl fmt::Debug for Outlines {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.write_str("Outlines")
+    }
+}
+
 impl Layer<'_> {
+    /// The vertices of all cells in m, one cell after the other.
+    pub fn vertices(&self) -> Box<dyn Iterator<Item = Vec2> + '_> {
+        match &self.vertices {
+            Vertices::Given(vertices) => Box::new(vertices.iter().copied()),
+            Vertices::Made(outlines) => Box::new((0..self.ends.len()).flat_map(|cell| outlines.of(cell))),
+        }
+    }
+
     /// The same with owned values.
     pub fn into_owned(self) -> Layer<'static> {
-        let (points, fields) = (Cow::Owned(self.points.into_owned()), owned(self.fields));
-        Layer { name: self.name, kind: self.kind, points, cells: self.cells, fields }
+        let vertices = match self.vertices {
+            Vertices::Given(vertices) => Vertices::Given(Cow::Owned(vertices.into_owned())),
+            Vertices::Made(outlines) => Vertices::Made(outlines),
+        };
+        Layer { name: self.name, kind: self.kind, vertices, ends: self.ends, fields: owned(self.fields) }
     }
 }
 

@@ -6,8 +6,9 @@
 //! Left out: turning and junction of flows in pores.
 
 use crate::channel::{Channel, Wall};
-use crate::graph::{Edge, Network, WallPiece};
+use crate::graph::{Edge, Network, Region, WallPiece};
 use meniscus_core::math::{Vec2, perpendicular};
+use rayon::prelude::*;
 
 /// Least distance of a pore center from a chord, in widths, so that conductances are finite.
 const SHORTEST: f64 = 1e-6;
@@ -23,14 +24,18 @@ pub fn conductances(network: &Network) -> Vec<f64> {
 
 /// The resistances of all throats in 1/m², from the chord to the center of the first and of the second region.
 pub fn resistances(network: &Network) -> Vec<[f64; 2]> {
-    let mut resistances = vec![[0.0; 2]; network.throats.len()];
-    each_edge(network, |region, index, edge| {
-        if let Edge::Throat { throat, end, from, to } = *edge
-            && let Some(halves) = resistances.get_mut(throat)
-        {
-            halves[end.min(1)] += resistance(network, region, index, [from, to]);
+    let of = |region, index, edge: &Edge| match *edge {
+        Edge::Throat { throat, end, from, to } => {
+            Some((throat, end.min(1), resistance(network, region, index, [from, to])))
         }
-    });
+        _ => None,
+    };
+    let mut resistances = vec![[0.0; 2]; network.throats.len()];
+    for (throat, end, resistance) in of_edges(network, of) {
+        if let Some(halves) = resistances.get_mut(throat) {
+            halves[end] += resistance;
+        }
+    }
     resistances
 }
 
@@ -41,23 +46,28 @@ pub(crate) fn opening_conductances(network: &Network) -> Vec<f64> {
 
 /// The resistances of all openings in 1/m², from the side to the center of the region behind it.
 pub(crate) fn opening_resistances(network: &Network) -> Vec<f64> {
-    let mut found = vec![f64::INFINITY; network.openings.len()];
-    each_edge(network, |region, index, edge| {
-        if let Edge::Opening { opening, from, to } = *edge
-            && let Some(found) = found.get_mut(opening)
-        {
-            *found = 1.0 / finite(resistance(network, region, index, [from, to]), (to - from).norm());
+    let of = |region, index, edge: &Edge| match *edge {
+        Edge::Opening { opening, from, to } => {
+            Some((opening, 1.0 / finite(resistance(network, region, index, [from, to]), (to - from).norm())))
         }
-    });
+        _ => None,
+    };
+    let mut found = vec![f64::INFINITY; network.openings.len()];
+    for (opening, resistance) in of_edges(network, of) {
+        if let Some(found) = found.get_mut(opening) {
+            *found = resistance;
+        }
+    }
     found
 }
 
-fn each_edge(network: &Network, mut f: impl FnMut(usize, usize, &Edge)) {
-    for (region, edges) in network.regions.iter().map(|region| &region.edges).enumerate() {
-        for (index, edge) in edges.iter().enumerate() {
-            f(region, index, edge);
-        }
-    }
+/// What `of` finds at the edges of all regions, in order, given the region, the number of the edge in it, and the edge.
+fn of_edges<T: Send>(network: &Network, of: impl Fn(usize, usize, &Edge) -> Option<T> + Sync) -> Vec<T> {
+    let of = &of;
+    let of_region = |(region, it): (usize, &Region)| {
+        it.edges.iter().enumerate().filter_map(move |(index, edge)| of(region, index, edge)).collect::<Vec<_>>()
+    };
+    network.regions.par_iter().enumerate().flat_map_iter(of_region).collect()
 }
 
 fn finite(resistance: f64, width: f64) -> f64 {

@@ -119,7 +119,7 @@ impl Sample {
     /// Its elements.
     pub fn reference(&self) -> Reference {
         let division = self.division();
-        let probes = division.outlines().iter().map(|outline| inner_point(outline)).collect();
+        let probes = (0..division.elements().len()).map(|element| inner_point(&division.outline(element))).collect();
         let processes = match self {
             Self::QuasiStatic(solver) => solver
                 .cycles()
@@ -313,7 +313,8 @@ impl Reference {
         }
         let size = config.bounds.size();
         let periods = [0, 1].map(|axis| config.periodic[axis].then_some(size[axis]));
-        located(&division.outlines(), &self.probes, periods)
+        let outlines: Vec<Vec<Vec2>> = (0..elements.len()).map(|element| division.outline(element)).collect();
+        located(&outlines, &self.probes, periods)
     }
 
     /// The probability that a random point of each pore is invaded, as a table of pores.

@@ -135,9 +135,13 @@ fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
     holds
 }
 
-/// Relative permeabilities at the end of the last half cycle; `None` if nothing flows from inlet to outlet.
+/// Wetting saturation and relative permeabilities at present, at the end of the last half cycle; `None` if nothing flows from inlet to outlet.
 pub(crate) fn relative_at_end(model: &Model) -> Option<[f64; 3]> {
-    *model.relative_at_end.get_or_init(|| relative(model, &[1.0]).first().copied())
+    let steps = model.cycles.as_ref()?.steps;
+    let find = || (steps, relative(model, &[1.0]).first().copied());
+    let &(of, found) = model.relative_at_end.get_or_init(find);
+    // It may have been asked for before the last step.
+    if of == steps { found } else { find().1 }
 }
 
 /// `relative_permeability.csv`; `None` if nothing flows from inlet to outlet.

@@ -4,10 +4,11 @@ use super::cycles::{FluidPhase, Invasion};
 use super::displacement::Division;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
+use super::pictures;
 use super::summary::pore_states;
 use super::tables::{arms, center, kept, length, pores_of, radius};
 use meniscus_core::math::Vec2;
-use meniscus_core::snapshot::{CellKind, Field, Layer, Lines};
+use meniscus_core::snapshot::{CellKind, Field, Layer, Lines, Outlines, Vertices};
 
 /// Sequence number of elements that no event filled.
 const NOT_INVADED: i64 = -1;
@@ -17,21 +18,24 @@ fn phase(fluid: FluidPhase) -> i64 {
     i64::from(fluid == FluidPhase::NonWetting)
 }
 
-/// Polylines or polygons from their vertices.
-fn joined(parts: impl IntoIterator<Item = Vec<Vec2>>) -> (Vec<Vec2>, Vec<Vec<u32>>) {
-    let (mut points, mut cells) = (Vec::new(), Vec::new());
-    for part in parts {
-        let first = points.len() as u32;
-        cells.push((first..first + part.len() as u32).collect());
-        points.extend(part);
-    }
-    (points, cells)
-}
-
 /// Menisci as polylines.
 pub(crate) fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
-    let (points, lines) = joined(menisci);
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
+    for line in menisci {
+        let first = points.len() as u32;
+        lines.push((first..first + line.len() as u32).collect());
+        points.extend(line);
+    }
     Lines { points: points.into(), lines, fields: Vec::new() }
+}
+
+/// A layer of polygons.
+fn polygons(name: &'static str, outlines: Outlines, fields: Vec<Field<'static>>, count: usize) -> Layer<'static> {
+    let ends = (0..count).scan(0, |end, cell| {
+        *end += outlines.of(cell).len() as u32;
+        Some(*end)
+    });
+    Layer { name, kind: CellKind::Polygons, ends: ends.collect(), vertices: Vertices::Made(outlines), fields }
 }
 
 /// The elements, with pore, phase, sequence and capillary pressure at invasion.
@@ -39,7 +43,6 @@ pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -
     let pores = &config.pores;
     let Some(occupation) = occupation else { return plain_regions(config) };
     let elements = occupation.elements();
-    let (points, cells) = joined((0..elements.len()).map(|element| occupation.displacement.outline(element)));
     let pressure = |invasion: &Invasion| config.pressure(occupation.invading, invasion.applied);
     let invasions = || occupation.invasions.iter();
     let mut fields = vec![
@@ -62,29 +65,27 @@ pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -
     if let Some(films) = &occupation.films {
         fields.push(Field::scalar("film-volume", "m3", films.volume.iter().copied()));
     }
-    Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
+    polygons("regions", occupation.displacement.division().outlines(), fields, elements.len())
 }
 
 /// The elements with their probability of invasion.
 pub(crate) fn invasion(config: &Configuration, division: &Division, probability: &[f64]) -> Layer<'static> {
     let elements = division.elements();
-    let (points, cells) = joined((0..elements.len()).map(|element| division.outline(element)));
     let fields = vec![
         Field::integer("pore", elements.iter().map(|element| config.pores.pore_of[element.region] as i64)),
         Field::scalar("area", "m2", elements.iter().map(|element| element.area)),
         Field::scalar("invasion-probability", "", probability.iter().copied()),
     ];
-    Layer { name: "invasion", kind: CellKind::Polygons, points: points.into(), cells, fields }
+    polygons("invasion", division.outlines(), fields, elements.len())
 }
 
 fn plain_regions(config: &Configuration) -> Layer<'static> {
-    let (points, cells) = joined(config.network.regions.iter().map(super::displacement::outline));
     let pores = &config.pores.pore_of;
     let fields = vec![
         Field::integer("pore", pores.iter().map(|&pore| pore as i64)),
         Field::scalar("inscribed-radius", "m", pores.iter().map(|&pore| radius(config, pore))),
     ];
-    Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
+    polygons("regions", pictures::outlines(&config.network), fields, pores.len())
 }
 
 /// `pores.vtu`.
@@ -107,17 +108,16 @@ pub(crate) fn pores(config: &Configuration, occupation: Option<&Occupation>) -> 
             ),
         ]);
     }
-    let cells = (0..count as u32).map(|pore| vec![pore]).collect();
-    Layer { name: "pores", kind: CellKind::Points, points: centers.into(), cells, fields }
+    let vertices = Vertices::Given(centers.into());
+    Layer { name: "pores", kind: CellKind::Points, vertices, ends: (1..=count as u32).collect(), fields }
 }
 
 /// `throats.vtu`: two lines per throat, from the pore centers to the middle of the throat.
 pub(crate) fn throats(model: &Model) -> Layer<'static> {
     let config = &model.config;
-    let (points, cells) =
-        joined(kept(config).flat_map(|throat| {
-            arms(config, throat).map(|to_center| vec![throat.middle() + to_center, throat.middle()])
-        }));
+    let of_arms = |throat| arms(config, throat).map(|to_center| [throat.middle() + to_center, throat.middle()]);
+    let vertices: Vec<Vec2> = kept(config).flat_map(of_arms).flatten().collect();
+    let ends = (2..=vertices.len() as u32).step_by(2).collect();
     let both = || kept(config).flat_map(|throat| [throat, throat]);
     let mut fields = vec![
         Field::integer("throat", (0..config.pores.throats.len() as i64).flat_map(|throat| [throat, throat])),
@@ -130,5 +130,5 @@ pub(crate) fn throats(model: &Model) -> Layer<'static> {
         let both = config.pores.throats.iter().flat_map(|&throat| [pressures[throat]; 2]);
         fields.push(Field::scalar("entry-pressure", "Pa", both));
     }
-    Layer { name: "throats", kind: CellKind::Lines, points: points.into(), cells, fields }
+    Layer { name: "throats", kind: CellKind::Lines, vertices: Vertices::Given(vertices.into()), ends, fields }
 }

@@ -140,8 +140,8 @@ pub(crate) struct Model {
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceLock<Vec<f64>>,
     trapped_otherwise: OnceLock<Vec<(FilmModel, f64)>>,
-    /// Wetting saturation and relative permeabilities at the end.
-    pub(super) relative_at_end: OnceLock<Option<[f64; 3]>>,
+    /// Wetting saturation and relative permeabilities after a number of steps.
+    pub(super) relative_at_end: OnceLock<(u64, Option<[f64; 3]>)>,
 }
 
 impl Model {

@@ -24,8 +24,6 @@ pub(crate) struct Occupation<'a> {
     pub(crate) invasions: Cow<'a, [Option<Invasion>]>,
     /// The throat passed by each event of this displacement or half cycle, in order.
     pub(crate) passed: Vec<Option<usize>>,
-    /// The menisci, each a polyline in m.
-    pub(crate) menisci: Vec<Vec<Vec2>>,
     /// Direction in which the invading phase drives the flow through the left, right, bottom and top side; `None` if a side is closed.
     pub(crate) open: [Option<Through>; 4],
     /// Index of the half cycle.
@@ -64,7 +62,6 @@ impl Cycles {
             trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),
             invasions: (&self.record.invasions[..]).into(),
             passed: present.map(|entry| entry.throat).collect(),
-            menisci: self.menisci(),
             open: self.open_sides(),
             half_cycle: self.half_cycle_index(),
             films: self.observed_films(),

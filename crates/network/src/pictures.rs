@@ -1,7 +1,10 @@
 //! Data of the capillary pressure curve and the maps of a network.
 
+use std::sync::Arc;
+
 use super::cycles::{Cycles, Entry, FluidPhase};
-use super::displacement::Division;
+use super::displacement::{Division, outline};
+use super::graph::Network;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::region::shifts;
@@ -9,6 +12,7 @@ use super::tables::{kept, radius};
 use meniscus_case::Side;
 use meniscus_core::diagram::{Area, Color, Diagram, Frame, RegionMap, Stroke, Through, Tone, Trace, colors};
 use meniscus_core::math::{Bounds, Vec2};
+use meniscus_core::snapshot::{Outlined, Outlines};
 
 /// Least length of steps of the curve that are drawn, over that of an axis.
 const FINEST: f64 = 1.0e-3;
@@ -145,14 +149,34 @@ fn images(config: &Configuration, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
     shifts(ends, config.bounds, config.periods()).into_iter().map(moved).collect()
 }
 
-/// The periodic images of an outline in one tone.
-fn areas(config: &Configuration, outline: &[Vec2], tone: Tone) -> Vec<Area> {
-    images(config, outline).into_iter().map(|boundary| Area { boundary, tone }).collect()
+/// The periodic images of all outlines that overlap the domain, each in its tone.
+fn areas(config: &Configuration, outlines: &Outlines, tones: impl Iterator<Item = Tone>) -> Vec<Area> {
+    let images = |(cell, tone)| {
+        let ends = Bounds::around(outlines.of(cell).into_iter());
+        let shifts = ends.map_or_else(Vec::new, |ends| shifts(ends, config.bounds, config.periods()));
+        shifts.into_iter().map(move |shift| Area { cell, shift, tone })
+    };
+    tones.enumerate().flat_map(images).collect()
 }
 
-/// The map: the order of invasion with the progress as text, or without a displacement the pores by size.
-pub(crate) fn region_map(config: &Configuration, occupation: Option<(&Occupation, String)>) -> RegionMap {
-    occupation.map_or_else(|| sizes(config), |(occupation, progress)| order(config, occupation, progress))
+impl Outlined for Network {
+    fn outline(&self, cell: usize) -> Vec<Vec2> {
+        outline(&self.regions[cell])
+    }
+}
+
+/// The boundaries of the regions of a network.
+pub(super) fn outlines(network: &Arc<Network>) -> Outlines {
+    Outlines(Arc::clone(network) as _)
+}
+
+/// Lines in m.
+type Polylines = Vec<Vec<Vec2>>;
+
+/// The map: the order of invasion with its menisci, with the progress as text, or without a displacement the pores by size.
+pub(crate) fn region_map(config: &Configuration, occupation: Option<(&Occupation, Polylines, String)>) -> RegionMap {
+    occupation
+        .map_or_else(|| sizes(config), |(occupation, menisci, progress)| order(config, occupation, &menisci, progress))
 }
 
 fn empty(config: &Configuration) -> RegionMap {
@@ -173,6 +197,7 @@ fn empty(config: &Configuration) -> RegionMap {
             periodic: config.periodic,
         },
         areas: Vec::new(),
+        outlines: outlines(&config.network),
         walls: outline.lines.iter().map(wall).collect(),
         menisci: ("menisci", Vec::new()),
         throats: ("throats", kept(config).flat_map(|throat| images(config, &throat.contacts)).collect()),
@@ -189,21 +214,21 @@ pub(crate) fn through(side: Side) -> Option<Through> {
     }
 }
 
-fn order(config: &Configuration, occupation: &Occupation, progress: String) -> RegionMap {
-    let areas = (0..occupation.elements().len()).flat_map(|index| {
+fn order(config: &Configuration, occupation: &Occupation, menisci: &[Vec<Vec2>], progress: String) -> RegionMap {
+    let tones = (0..occupation.elements().len()).map(|index| {
         let is_invaded = occupation.is_invaded(index);
-        let tone = match occupation.invasions[index] {
+        match occupation.invasions[index] {
             Some(invasion) if is_invaded => Tone::Value(invasion.displaced),
             _ if occupation.trapped[index] => Tone::Class(1),
             None if is_invaded => Tone::Class(2),
             _ => Tone::Class(0),
-        };
-        areas(config, &occupation.displacement.outline(index), tone)
+        }
     });
+    let outlines = occupation.displacement.division().outlines();
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
     let (label, bar) = invading.in_order;
-    let menisci = occupation.menisci.iter().flat_map(|line| images(config, line)).collect();
+    let menisci = menisci.iter().flat_map(|line| images(config, line)).collect();
     let all = occupation.films.iter().flat_map(|films| &films.strips);
     let strips = all.flat_map(|(line, width)| images(config, line).into_iter().map(|line| (line, *width)));
     // Films are wetting phase that did not come in this half cycle.
@@ -216,7 +241,8 @@ fn order(config: &Configuration, occupation: &Occupation, progress: String) -> R
         bar,
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
         classes: vec![(occupation.invading.other().name(), defending.color), defending.trapped, invading.before],
-        areas: areas.collect(),
+        areas: areas(config, &outlines, tones),
+        outlines,
         menisci: ("menisci", menisci),
         strips: ("films", of_films, strips.collect()),
         frame: Frame { open: occupation.open, ..map.frame },
@@ -226,24 +252,22 @@ fn order(config: &Configuration, occupation: &Occupation, progress: String) -> R
 
 /// The elements by their probability of invasion.
 pub(crate) fn invasion(config: &Configuration, division: &Division, probability: &[f64], note: String) -> RegionMap {
-    let areas = probability
-        .iter()
-        .enumerate()
-        .flat_map(|(index, &it)| areas(config, &division.outline(index), Tone::Value(it)));
-    RegionMap { note, label: "probability of invasion", areas: areas.collect(), ..empty(config) }
+    let outlines = division.outlines();
+    let areas = areas(config, &outlines, probability.iter().map(|&it| Tone::Value(it)));
+    RegionMap { note, label: "probability of invasion", areas, outlines, ..empty(config) }
 }
 
 fn sizes(config: &Configuration) -> RegionMap {
     let pores = &config.pores;
-    let areas = config.network.regions.iter().zip(&pores.pore_of).flat_map(|(region, &pore)| {
-        areas(config, &super::displacement::outline(region), Tone::Value(radius(config, pore)))
-    });
+    let outlines = outlines(&config.network);
+    let tones = pores.pore_of.iter().map(|&pore| Tone::Value(radius(config, pore)));
     let largest = (0..pores.main_region.len()).map(|pore| radius(config, pore)).fold(0.0, f64::max);
     RegionMap {
         note: format!("{} pores, {} throats", pores.main_region.len(), pores.throats.len()),
         label: "inscribed radius in m",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
-        areas: areas.collect(),
+        areas: areas(config, &outlines, tones),
+        outlines,
         ..empty(config)
     }
 }

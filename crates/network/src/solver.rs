@@ -154,9 +154,10 @@ impl Solver for NetworkSolver {
 
     fn region_map(&self) -> Option<RegionMap> {
         let (config, cycles) = (self.config(), self.cycles());
-        let occupation = cycles.map(|cycles| Occupation { menisci: cycles.all_menisci(config), ..cycles.occupation() });
-        let progress = cycles.map(|cycles| cycles.progress(config));
-        Some(pictures::region_map(config, occupation.as_ref().zip(progress)))
+        let occupation = cycles.map(Cycles::occupation);
+        let displaced = cycles.zip(occupation.as_ref());
+        let displaced = displaced.map(|(it, occupation)| (occupation, it.all_menisci(config), it.progress(config)));
+        Some(pictures::region_map(config, displaced))
     }
 
     fn results(&self) -> Results<'_> {

@@ -7,7 +7,6 @@
 mod arrays;
 pub mod read;
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 
 use self::arrays::Arrays;
@@ -41,10 +40,13 @@ pub enum VtkError {
     },
 }
 
+/// Returns points in m.
+type Points<'a> = Box<dyn Fn() -> Box<dyn Iterator<Item = Vec2> + 'a> + 'a>;
+
 /// A file ready to be written.
-#[derive(Debug)]
 pub struct VtkFile<'a> {
-    points: Cow<'a, [Vec2]>,
+    points: Points<'a>,
+    number_of_points: usize,
     cells: Cells<'a>,
     on_points: &'a [Field<'a>],
     on_cells: &'a [Field<'a>],
@@ -56,7 +58,12 @@ pub struct VtkFile<'a> {
 /// # Errors
 /// [`VtkError`] if a field has another length than its points.
 pub fn points<'a>(cloud: &'a Cloud<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    file((&*cloud.points).into(), Cells::Vertices(cloud.points.len()), [&cloud.fields, &[]], compression)
+    file(
+        (given(&cloud.points), cloud.points.len()),
+        Cells::Vertices(cloud.points.len()),
+        [&cloud.fields, &[]],
+        compression,
+    )
 }
 
 /// Fields on the corners of the quadrilaterals of a regular grid.
@@ -64,7 +71,9 @@ pub fn points<'a>(cloud: &'a Cloud<'_>, compression: Compression) -> Result<VtkF
 /// # Errors
 /// [`VtkError`] if a field has another length than its nodes.
 pub fn grid<'a>(grid: &'a Grid<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    file(grid.points().into(), Cells::Quadrilaterals(grid.counts), [&grid.fields, &[]], compression)
+    let points = || -> Box<dyn Iterator<Item = Vec2>> { Box::new(grid.points().into_iter()) };
+    let count = grid.counts[0] * grid.counts[1];
+    file((Box::new(points), count), Cells::Quadrilaterals(grid.counts), [&grid.fields, &[]], compression)
 }
 
 /// Polylines, segment by segment.
@@ -72,7 +81,7 @@ pub fn grid<'a>(grid: &'a Grid<'_>, compression: Compression) -> Result<VtkFile<
 /// # Errors
 /// [`VtkError`] if a field has another length than its vertices.
 pub fn lines<'a>(lines: &'a Lines<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    file((&*lines.points).into(), Cells::Segments(&lines.lines), [&lines.fields, &[]], compression)
+    file((given(&lines.points), lines.points.len()), Cells::Segments(&lines.lines), [&lines.fields, &[]], compression)
 }
 
 /// Cells with fields on them.
@@ -80,17 +89,23 @@ pub fn lines<'a>(lines: &'a Lines<'_>, compression: Compression) -> Result<VtkFi
 /// # Errors
 /// [`VtkError`] if a field has another length than its cells.
 pub fn layer<'a>(layer: &'a Layer<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    file((&*layer.points).into(), Cells::Given(layer.kind, &layer.cells), [&[], &layer.fields], compression)
+    let count = layer.ends.last().map_or(0, |&end| end as usize);
+    let points = (Box::new(|| layer.vertices()) as Points<'a>, count);
+    file(points, Cells::Consecutive(layer.kind, &layer.ends), [&[], &layer.fields], compression)
+}
+
+fn given(points: &[Vec2]) -> Points<'_> {
+    Box::new(|| Box::new(points.iter().copied()))
 }
 
 /// The file of points and cells with fields on both.
 fn file<'a>(
-    points: Cow<'a, [Vec2]>,
+    (points, number_of_points): (Points<'a>, usize),
     cells: Cells<'a>,
     [on_points, on_cells]: [&'a [Field<'a>]; 2],
     compression: Compression,
 ) -> Result<VtkFile<'a>, VtkError> {
-    for (fields, expected) in [(on_points, points.len()), (on_cells, cells.count())] {
+    for (fields, expected) in [(on_points, number_of_points), (on_cells, cells.count())] {
         let length = |field: &Field<'_>| match &field.values {
             Values::Scalar(values) => values.len(),
             Values::Vector(values) => values.len(),
@@ -100,11 +115,10 @@ fn file<'a>(
             return Err(VtkError::Length { name: field.name, found: length(field), expected });
         }
     }
-    Ok(VtkFile { points, cells, on_points, on_cells, compression })
+    Ok(VtkFile { points, number_of_points, cells, on_points, on_cells, compression })
 }
 
 /// Cells of one kind.
-#[derive(Debug)]
 enum Cells<'a> {
     /// One for each of so many points.
     Vertices(usize),
@@ -112,8 +126,8 @@ enum Cells<'a> {
     Quadrilaterals([usize; 2]),
     /// The segments of polylines.
     Segments(&'a [Vec<u32>]),
-    /// Cells of a layer.
-    Given(CellKind, &'a [Vec<u32>]),
+    /// Those of a layer, each of consecutive points, by their ends.
+    Consecutive(CellKind, &'a [u32]),
 }
 
 /// Numbers of points or of cells, in order.
@@ -123,10 +137,10 @@ impl Cells<'_> {
     /// The number of their kind in VTK, and of the points of each, if all have as many.
     fn kind(&self) -> (u8, Option<i64>) {
         match self {
-            Self::Vertices(_) | Self::Given(CellKind::Points, _) => (1, Some(1)),
+            Self::Vertices(_) | Self::Consecutive(CellKind::Points, _) => (1, Some(1)),
             Self::Segments(_) => (3, Some(2)),
-            Self::Given(CellKind::Lines, _) => (3, None),
-            Self::Given(CellKind::Polygons, _) => (7, None),
+            Self::Consecutive(CellKind::Lines, _) => (3, None),
+            Self::Consecutive(CellKind::Polygons, _) => (7, None),
             Self::Quadrilaterals(_) => (9, Some(4)),
         }
     }
@@ -136,7 +150,7 @@ impl Cells<'_> {
             Self::Vertices(count) => *count,
             Self::Quadrilaterals([columns, rows]) => columns.saturating_sub(1) * rows.saturating_sub(1),
             Self::Segments(lines) => lines.iter().map(|line| line.len().saturating_sub(1)).sum(),
-            Self::Given(_, cells) => cells.len(),
+            Self::Consecutive(_, ends) => ends.len(),
         }
     }
 
@@ -152,17 +166,14 @@ impl Cells<'_> {
             Self::Segments(lines) => {
                 Box::new(lines.iter().flat_map(|line| line.windows(2)).flatten().map(|&it| it.into()))
             }
-            Self::Given(_, cells) => Box::new(cells.iter().flatten().map(|&point| point.into())),
+            Self::Consecutive(_, ends) => Box::new(0..ends.last().map_or(0, |&end| end.into())),
         }
     }
 
     /// The end of each cell in the connectivity.
     fn offsets(&self) -> Numbers<'_> {
         match (self.kind().1, self) {
-            (None, Self::Given(_, cells)) => Box::new(cells.iter().scan(0, |end, cell| {
-                *end += cell.len() as i64;
-                Some(*end)
-            })),
+            (_, Self::Consecutive(_, ends)) => Box::new(ends.iter().map(|&end| end.into())),
             (each, _) => Box::new((1..=self.count() as i64).map(move |cell| cell * each.unwrap_or_default())),
         }
     }
@@ -174,12 +185,11 @@ impl VtkFile<'_> {
     /// # Errors
     /// Those of the target.
     pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        let (points, cells) = (self.points.len(), self.cells.count());
         let mut arrays = Arrays::new(to, self.compression);
-        arrays.begin(points, cells)?;
+        arrays.begin(self.number_of_points, self.cells.count())?;
         arrays.group("PointData", self.on_points, field)?;
         arrays.group("CellData", self.on_cells, field)?;
-        arrays.group("Points", &[&*self.points], |arrays, points| vectors(arrays, "Points", points))?;
+        arrays.group("Points", &[&self.points], |arrays, points| vectors(arrays, "Points", points()))?;
         arrays.group("Cells", &[&self.cells], |arrays, cells| {
             arrays.array("connectivity", 1, cells.connectivity())?;
             arrays.array("offsets", 1, cells.offsets())?;
@@ -198,14 +208,14 @@ impl VtkFile<'_> {
 }
 
 /// 2-vectors with a third component of 0.
-fn vectors(arrays: &mut Arrays<'_>, name: &str, values: &[Vec2]) -> io::Result<()> {
-    arrays.array(name, 3, values.iter().flat_map(|v| [v.x, v.y, 0.0]))
+fn vectors(arrays: &mut Arrays<'_>, name: &str, values: impl Iterator<Item = Vec2>) -> io::Result<()> {
+    arrays.array(name, 3, values.flat_map(|v| [v.x, v.y, 0.0]))
 }
 
 fn field(arrays: &mut Arrays<'_>, Field { name, values, .. }: &Field<'_>) -> io::Result<()> {
     match values {
         Values::Scalar(values) => arrays.array(name, 1, values.iter().copied()),
-        Values::Vector(values) => vectors(arrays, name, values),
+        Values::Vector(values) => vectors(arrays, name, values.iter().copied()),
         Values::Integer(values) => arrays.array(name, 1, values.iter().copied()),
     }
 }
@@ -218,11 +228,13 @@ mod python;
 #[cfg(test)]
 mod tests {
     use std::borrow::Cow;
+    use std::sync::Arc;
 
     use vtkio::IOBuffer;
     use vtkio::model::{Attribute, CellType, DataSet, UnstructuredGridPiece, VertexNumbers, Vtk};
 
     use super::*;
+    use meniscus_core::snapshot::{Outlined, Outlines, Vertices};
 
     fn parse(bytes: &[u8]) -> UnstructuredGridPiece {
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(bytes).unwrap().data else {
@@ -269,12 +281,22 @@ mod tests {
 
     #[test]
     fn polygons_carry_their_fields() {
-        let vertices = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec2::new(x, y));
-        let (points, cells) = (Cow::Borrowed(&vertices[..]), vec![vec![0, 1, 2, 3], vec![0, 1, 2]]);
-        let example = Layer { name: "regions", kind: CellKind::Polygons, points, cells, fields: fields(2) };
+        struct Polygons([Vec2; 4]);
+        impl Outlined for Polygons {
+            fn outline(&self, cell: usize) -> Vec<Vec2> {
+                self.0[cell..].to_vec()
+            }
+        }
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec2::new(x, y));
+        let vertices = Vertices::Made(Outlines(Arc::new(Polygons(square))));
+        let example =
+            Layer { name: "regions", kind: CellKind::Polygons, vertices, ends: vec![4, 7], fields: fields(2) };
         let piece = parse(&layer(&example, Compression::None).unwrap().bytes());
         assert_eq!(piece.cells.types, [CellType::Polygon; 2]);
         assert_eq!((piece.data.point.len(), piece.data.cell.len()), (0, 3));
+        assert_eq!(piece.points, coordinates(&[&square[..], &square[1..]].concat()));
+        let (connectivity, offsets) = ((0..7).collect(), vec![4, 7]);
+        assert_eq!(piece.cells.cell_verts, VertexNumbers::XML { connectivity, offsets });
     }
 
     #[test]
@@ -323,7 +345,7 @@ mod tests {
     fn a_field_of_another_length_is_refused() {
         let cloud = Cloud { points: vec![Vec2::zeros(); 2].into(), fields: fields(3) };
         assert_eq!(
-            points(&cloud, Compression::None).unwrap_err().to_string(),
+            points(&cloud, Compression::None).err().unwrap().to_string(),
             "the field pressure has 3 values, expected 2"
         );
     }

@@ -129,7 +129,7 @@ struct Sample {
 pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Triple>) {
     let margin = walls.largest_distance();
     let near = walls.domain.grown(margin * 1.01 + walls.tolerance);
-    let mut all: Vec<Sample> = Vec::new();
+    let mut all: Vec<Sample> = Vec::with_capacity(samples.count());
     for (wall, shift) in walls.images_within(Vec2::repeat(margin)) {
         let curve = walls.curve(wall, shift);
         for &u in &samples.along[wall] {
@@ -150,6 +150,7 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
         })
         .collect();
     let triangulation = triangulate(&points);
+    drop(points);
     let within = walls.domain.grown(0.5 * margin);
     let of_block = |(block, corners): (usize, &[usize])| {
         let (mut pairs, mut triples) = (Vec::new(), Vec::new());
@@ -176,7 +177,15 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
     };
     let (pairs, triples): (Vec<Vec<Pair>>, Vec<Vec<Triple>>) =
         triangulation.triangles.par_chunks(BLOCK).enumerate().map(of_block).unzip();
-    (pairs.concat(), triples.concat())
+    drop((triangulation, all));
+    (joined(pairs), joined(triples))
+}
+
+/// All items in order; each block is freed once it is copied.
+fn joined<T>(blocks: Vec<Vec<T>>) -> Vec<T> {
+    let mut all = Vec::with_capacity(blocks.iter().map(Vec::len).sum());
+    blocks.into_iter().for_each(|block| all.extend(block));
+    all
 }
 
 /// A triple if its pieces, or their ends, are three.

@@ -79,10 +79,10 @@ impl Unresolved {
     fn of_pairs(walls: &Walls, pairs: &[Pair], maxima: Vec<Maximum>) -> Self {
         let of_pair = |(k, pair): (usize, &Pair)| {
             let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
-            opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at)).collect::<Vec<_>>()
+            opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at))
         };
-        let found: Vec<Vec<Opposite>> = pairs.par_iter().enumerate().map(of_pair).collect();
-        let found = one_of_each(found.concat(), opposite_key(walls));
+        let found: Vec<Opposite> = pairs.par_iter().enumerate().flat_map_iter(of_pair).collect();
+        let found = one_of_each(found, opposite_key(walls));
         let slopes: Vec<[Slope; 2]> = found.par_iter().map(|at| slopes(walls, at)).collect();
         let mut classifier = Classifier::default();
         let mut isolated = Vec::new();

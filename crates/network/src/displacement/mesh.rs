@@ -6,8 +6,10 @@
 use super::dead_ends::cut_dead_ends;
 use super::divide::divide;
 use super::loops::{Crossing, GateId, Loop};
+use super::outline::outline;
 use crate::graph::{Edge, Network, Pores, Region, Stretch};
 use meniscus_core::math::Vec2;
+use meniscus_core::snapshot::Outlined;
 use rayon::prelude::*;
 
 /// A gate, and its end in an element: that at which a meniscus enters it.
@@ -132,6 +134,12 @@ fn misses_walls(part: &Loop, k: usize) -> bool {
         }
     }
     false
+}
+
+impl Outlined for Mesh {
+    fn outline(&self, cell: usize) -> Vec<Vec2> {
+        outline(&self.loops[cell])
+    }
 }
 
 impl Mesh {

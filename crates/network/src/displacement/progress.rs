@@ -13,6 +13,7 @@ use super::trapping::Connection;
 use crate::graph::{Network, Pores, WallPiece};
 use meniscus_case::network::Events;
 use meniscus_core::math::Vec2;
+use meniscus_core::snapshot::Outlines;
 use meniscus_geometry::curve::Curve;
 use meniscus_geometry::interface::menisci::Passage;
 use rayon::prelude::*;
@@ -107,9 +108,9 @@ impl Division {
         outline(&self.mesh.loops[element])
     }
 
-    /// The boundaries of all elements.
-    pub(crate) fn outlines(&self) -> Vec<Vec<Vec2>> {
-        self.mesh.loops.iter().map(outline).collect()
+    /// The boundaries of all elements, made when they are needed.
+    pub(crate) fn outlines(&self) -> Outlines {
+        Outlines(Arc::clone(&self.mesh) as _)
     }
 
     /// The elements of which a disc covers a part, in order.

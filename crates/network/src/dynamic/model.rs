@@ -56,7 +56,6 @@ impl DynamicModel {
             trapped: self.dynamic.trapped(),
             invasions: self.dynamic.invasions().iter().map(|invasion| invasion.map(towards_wetting)).collect(),
             passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
-            menisci: self.dynamic.menisci(),
             open: self.quasi_static.config.sides.map(through),
             half_cycle: 0,
             films: None,

@@ -208,8 +208,9 @@ impl Solver for DynamicSolver {
     }
 
     fn region_map(&self) -> Option<RegionMap> {
-        let (occupation, progress) = (self.model.occupation(), self.model.progress());
-        Some(pictures::region_map(&self.model.quasi_static.config, Some((&occupation, progress))))
+        let (occupation, menisci) = (self.model.occupation(), self.model.dynamic.menisci());
+        let displaced = (&occupation, menisci, self.model.progress());
+        Some(pictures::region_map(&self.model.quasi_static.config, Some(displaced)))
     }
 
     fn results(&self) -> Results<'_> {

@@ -117,7 +117,7 @@ fn areas(canvas: &mut Canvas, view: &View, map: &RegionMap, [low, high]: [f64; 2
             Tone::Value(value) => color_at(map.bar, (value - low) / (high - low)),
             Tone::Class(class) => map.classes.get(class).map_or(SOLID, |(_, color)| *color),
         };
-        canvas.polygon(pixels(view, &area.boundary), color);
+        canvas.polygon(map.boundary(area).map(|x| view.pixel(x)), color);
     }
 }
 
@@ -127,7 +127,7 @@ fn lines(canvas: &mut Canvas, view: &View, map: &RegionMap) {
     let thin = if map.walls.len() < FEW { 1.0 } else { 0.4 };
     let (_, color, strips) = &map.strips;
     if !strips.is_empty() {
-        canvas.within(map.areas.iter().map(|area| pixels(view, &area.boundary)));
+        canvas.within(map.areas.iter().map(|area| map.boundary(area).map(|x| view.pixel(x))));
     }
     for (line, width) in strips {
         let width = ((width * view.scale) as f32).max(THINNEST);
@@ -162,9 +162,19 @@ fn color_bar(canvas: &mut Canvas, region_map: &RegionMap, [low, high]: [f64; 2],
 mod tests {
     use super::*;
     use meniscus_core::diagram::{Area, Frame};
+    use meniscus_core::snapshot::{Outlined, Outlines};
+    use std::sync::Arc;
+
+    struct Square;
+
+    impl Outlined for Square {
+        fn outline(&self, _: usize) -> Vec<Vec2> {
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec()
+        }
+    }
 
     fn region_map() -> RegionMap {
-        let square = |x: f64, tone| Area { boundary: vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]], tone };
+        let square = |x: f64, tone| Area { cell: 0, shift: Vec2::new(x, 0.0), tone };
         RegionMap {
             part: 0,
             note: "a note".into(),
@@ -174,6 +184,7 @@ mod tests {
             bar: colors::SIZES,
             frame: Frame { bounds: [[0.0, 0.0], [4.0, 1.0]], open: [None; 4], periodic: [false; 2] },
             areas: vec![square(0.0, Tone::Value(2.0)), square(1.0, Tone::Class(0)), square(2.0, Tone::Value(0.0))],
+            outlines: Outlines(Arc::new(Square)),
             walls: vec![vec![[3.0, 0.0], [3.0, 1.0]]],
             menisci: ("menisci", vec![vec![[1.0, 0.0], [1.0, 1.0]]]),
             throats: ("throats", vec![vec![[2.0, 0.0], [2.0, 1.0]]]),
