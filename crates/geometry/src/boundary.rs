@@ -34,7 +34,7 @@ pub struct Nearest {
 #[derive(Clone)]
 pub struct Boundary {
     pub(crate) pieces: Vec<Piece>,
-    /// For the start and end of each piece: the mean outward normal of the two pieces that join there.
+    /// For the start and end of each piece: the mean outward normal of the two pieces that join there; empty where it is not needed.
     pub(crate) corners: Vec<[Option<Vec2>; 2]>,
     /// The tree over the boxes of the pieces.
     pub(crate) tree: Tree,
@@ -202,9 +202,14 @@ pub fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
 impl Boundary {
     /// Builds the search structure. Ends closer than `tolerance` (m) are joined.
     pub fn new(pieces: Vec<Piece>, tolerance: f64) -> Self {
-        let tree = Tree::over(pieces.iter().map(|piece| piece.curve.bounds()));
         let corners = corners(&pieces, tolerance);
-        Self { pieces, corners, tree }
+        Self { corners, ..Self::of_pieces(pieces) }
+    }
+
+    /// The same without normals at corners, which the nearest points of pieces do not need.
+    pub fn of_pieces(pieces: Vec<Piece>) -> Self {
+        let tree = Tree::over(pieces.iter().map(|piece| piece.curve.bounds()));
+        Self { pieces, corners: Vec::new(), tree }
     }
 
     /// The nearest points to `x` on all pieces within `reach` (m).

@@ -11,7 +11,6 @@ use super::model::{Configuration, Model};
 use super::permeability::{Drive, Paths, with_films};
 use super::tables::numbers;
 use meniscus_case::network::FilmModel;
-use meniscus_core::solver::Made;
 use meniscus_core::table::Table;
 
 /// Number of states of a half cycle, including first and last, at which relative permeabilities are computed.
@@ -104,8 +103,9 @@ fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
             of_phase(model, drive, &holds, films).unwrap_or(f64::NAN) / whole
         };
         let none = FilmFlow::default();
-        let [wetting, other] =
-            [(wetting, &films), (other, &none)].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
+        // Together both phases have the conductors of one.
+        let (wetting, other) = rayon::join(|| ratio((wetting, &films)), || ratio((other, &none)));
+        let [wetting, other] = [wetting, other].map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
         [saturation, wetting, other]
     };
     states.iter().map(at).map(state).collect()
@@ -145,16 +145,12 @@ pub(crate) fn relative_at_end(model: &Model) -> Option<[f64; 3]> {
 }
 
 /// `relative_permeability.csv`; `None` if nothing flows from inlet to outlet.
-pub(crate) fn table(model: &Model) -> Option<Made<'_, Table>> {
+pub(crate) fn table(model: &Model) -> Option<Table> {
     let last = relative_at_end(model)?;
-    Some(Box::new(move || permeabilities(model, last)))
-}
-
-fn permeabilities(model: &Model, last: [f64; 3]) -> Table {
     let states: Vec<f64> = (0..STATES - 1).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
     let rows = [relative(model, &states), vec![last]].concat();
     let column = |side: usize| rows.iter().map(move |row| row[side]);
-    Table {
+    Some(Table {
         name: "relative_permeability",
         columns: vec![
             // Wetting saturation; with [`network.region`](../network/theory.md#a-region) that of the region
@@ -164,5 +160,5 @@ fn permeabilities(model: &Model, last: [f64; 3]) -> Table {
             // Permeability of the throats between regions of the non-wetting phase over that of all
             numbers("relative_permeability_non_wetting", column(2)),
         ],
-    }
+    })
 }

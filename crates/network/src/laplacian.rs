@@ -83,8 +83,13 @@ const LEFT: f64 = 1e-15;
 /// Least reduction of the residual by a correction; otherwise it is rounding.
 const IMPROVED: f64 = 0.5;
 
-/// The unknowns that an edge joins, with their signs in the difference of pressures.
-type Incidence = [Option<(usize, f64)>; 4];
+/// The unknowns that an edge joins, and whether they count negatively in the difference of pressures.
+type Incidence = [Option<(u32, bool)>; 4];
+
+/// The unknowns that an edge joins, with their signs.
+fn signed(incidence: &Incidence) -> impl Iterator<Item = (usize, f64)> {
+    incidence.iter().flatten().map(|&(row, is_negative)| (row as usize, if is_negative { -1.0 } else { 1.0 }))
+}
 
 impl Laplacian {
     /// The graph of conductors between `nodes` nodes.
@@ -117,8 +122,8 @@ impl Laplacian {
     /// Calls `f` with conductor, row, column and sign of each entry of the lower triangle.
     fn each_entry(&self, mut f: impl FnMut(usize, usize, usize, f64)) {
         for (index, incidence) in self.incidences.iter().enumerate() {
-            for &(row, sign) in incidence.iter().flatten() {
-                for &(col, other) in incidence.iter().flatten().filter(|&&(col, _)| col <= row) {
+            for (row, sign) in signed(incidence) {
+                for (col, other) in signed(incidence).filter(|&(col, _)| col <= row) {
                     f(index, row, col, sign * other);
                 }
             }
@@ -225,7 +230,7 @@ impl Factored<'_> {
         let mut largest: f64 = 0.0;
         for (incidence, &through) in graph.incidences.iter().zip(&flow.through) {
             largest = largest.max(through.abs());
-            incidence.iter().flatten().for_each(|&(row, sign)| left[(row, 0)] -= sign * through);
+            signed(incidence).for_each(|(row, sign)| left[(row, 0)] -= sign * through);
         }
         (left, largest)
     }
@@ -240,7 +245,7 @@ impl Factored<'_> {
         for ((incidence, conductance), through) in
             graph.incidences.iter().zip(&self.conductances).zip(&mut flow.through)
         {
-            let drop: f64 = incidence.iter().flatten().map(|&(row, sign)| sign * left[(row, 0)]).sum();
+            let drop: f64 = signed(incidence).map(|(row, sign)| sign * left[(row, 0)]).sum();
             *through += conductance * drop;
         }
     }
@@ -251,7 +256,7 @@ fn incidence(edge: &Edge, rows_of: &[[Option<usize>; 2]]) -> Incidence {
     let (from, to) = edge.ends;
     let from = rows_of[from];
     let Some(to) = to.map(|to| rows_of[to]) else { return [plus(from[0]), plus(from[1]), None, None] };
-    let minus = |row: Option<usize>| row.map(|row| (row, -1.0));
+    let minus = |row: Option<usize>| row.map(|row| (row as u32, true));
     let mut all = [plus(from[0]), plus(from[1]), minus(to[0]), minus(to[1])];
     for k in 0..2 {
         // The pressure of a cluster drives no flow within it, nor that of a node to its own periodic image.
@@ -262,8 +267,8 @@ fn incidence(edge: &Edge, rows_of: &[[Option<usize>; 2]]) -> Incidence {
     all
 }
 
-fn plus(row: Option<usize>) -> Option<(usize, f64)> {
-    row.map(|row| (row, 1.0))
+fn plus(row: Option<usize>) -> Option<(u32, bool)> {
+    row.map(|row| (row as u32, false))
 }
 
 /// The unknowns of each node and their number: one node of each component without a given pressure has the pressure 0.

@@ -51,8 +51,9 @@ pub(crate) fn with_films(
     domain: Bounds,
     drive: Drive,
 ) -> Result<f64, FlowError> {
-    let all = conductors(network, paths, domain, drive).into_iter().chain(films.conductors.iter().copied());
-    let (edges, conductors): (Vec<Edge>, Vec<Conductor>) = all.unzip();
+    let (mut edges, mut conductors) = conductors(network, paths, domain, drive);
+    edges.extend(films.conductors.iter().map(|(edge, _)| edge));
+    conductors.extend(films.conductors.iter().map(|(_, conductor)| conductor));
     if matches!(drive, Drive::Sides(_)) && !leads_through(network.regions.len() + films.nodes, &edges, &conductors) {
         return Ok(0.0);
     }
@@ -73,17 +74,19 @@ fn leads_through(nodes: usize, edges: &[Edge], conductors: &[Conductor]) -> bool
 }
 
 /// The conductors under a mean gradient of 1.
-fn conductors(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Vec<(Edge, Conductor)> {
+fn conductors(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> (Vec<Edge>, Vec<Conductor>) {
     let axis = match drive {
         Drive::Sides(axis) | Drive::Periodic(axis) => axis,
     };
-    let mut found = Vec::new();
+    let most = paths.conductance.iter().filter(|&&conductance| conductance > 0.0).count() + network.openings.len();
+    let (mut edges, mut conductors) = (Vec::with_capacity(most), Vec::with_capacity(most));
     for (throat, &conductance) in network.throats.iter().zip(paths.conductance) {
         let [from, to] = throat.regions;
         if conductance > 0.0 {
             // The pressure drops by the gradient times the period between periodic images.
             let jump = if matches!(drive, Drive::Periodic(_)) { -throat.shift[axis] } else { 0.0 };
-            found.push((Edge { ends: (from, Some(to)), is_good: false }, Conductor { conductance, jump }));
+            edges.push(Edge { ends: (from, Some(to)), is_good: false });
+            conductors.push(Conductor { conductance, jump });
         }
     }
     if matches!(drive, Drive::Sides(_)) {
@@ -94,11 +97,11 @@ fn conductors(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> 
                 continue;
             }
             let pressure = if is_low { domain.size()[axis] } else { 0.0 };
-            let edge = Edge { ends: (opening.region, None), is_good: false };
-            found.push((edge, Conductor { conductance, jump: -pressure }));
+            edges.push(Edge { ends: (opening.region, None), is_good: false });
+            conductors.push(Conductor { conductance, jump: -pressure });
         }
     }
-    found
+    (edges, conductors)
 }
 
 #[cfg(test)]

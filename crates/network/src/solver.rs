@@ -15,8 +15,9 @@ use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, w
 use meniscus_core::diagram::{Diagram, RegionMap};
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
-    Clock, Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
+    Clock, Made, Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
 };
+use meniscus_core::table::Table;
 
 /// A network with its displacement.
 #[derive(Debug, Clone)]
@@ -167,7 +168,10 @@ impl Solver for NetworkSolver {
             results.tables.push(Box::new(|| tables::events(config, cycles)));
             results.tables.extend(tables::capillary_pressure(config, cycles));
         }
-        results.tables.extend(flow::table(&self.model));
+        // Before the others are made, since it takes as much memory as all of them.
+        results
+            .tables
+            .extend(flow::table(&self.model).map(|table| -> Made<'_, Table> { Box::new(move || table.clone()) }));
         results.documents.extend(state::documents(&self.model));
         results
     }

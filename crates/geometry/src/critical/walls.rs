@@ -116,14 +116,14 @@ impl Walls {
             tolerance,
             walls,
             images: Vec::new(),
-            index: Boundary::new(Vec::new(), 0.0),
+            index: Boundary::of_pieces(Vec::new()),
         };
         // Along a periodic axis the nearest point of a wall is at most half a period away.
         const MORE: f64 = 0.51;
         all.images = all.images_within(domain.size() * MORE);
         let image =
             |&(wall, shift): &(usize, Shift)| Piece { curve: all.curve(wall, shift), shape: all.walls[wall].shape };
-        all.index = Boundary::new(all.images.iter().map(image).collect(), tolerance);
+        all.index = Boundary::of_pieces(all.images.iter().map(image).collect());
         all.join();
         all
     }

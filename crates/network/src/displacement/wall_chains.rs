@@ -85,12 +85,11 @@ impl WallChains {
         for (chain, (pieces, _)) in chains.iter().enumerate() {
             pieces.iter().enumerate().for_each(|(index, &piece)| indices[piece] = (chain, index));
         }
-        let size = bounds.size();
         let moved = |curve: &Curve| {
             let middle = curve.point(0.5);
             Piece { curve: curve.shifted(wrapped(middle, bounds, periodic) - middle), shape: 0 }
         };
-        let boundary = Boundary::new(curves.iter().map(moved).collect(), ON_WALL * size.max());
+        let boundary = Boundary::of_pieces(curves.iter().map(moved).collect());
         Self { curves, is_invaded: tags, chains, indices, boundary, bounds, periodic }
     }
 

@@ -119,39 +119,39 @@ impl<'a> Arrays<'a> {
         values.for_each(|value| value.add(&mut bytes));
         let length = (bytes.len() - HEADER) as u64;
         bytes[..HEADER].copy_from_slice(&length.to_le_bytes());
-        self.base_64(&bytes)
+        self.base_64(&[bytes.into()])
     }
 
     fn packed<T: Number>(&mut self, values: impl Iterator<Item = T>) -> io::Result<()> {
-        let (mut block, mut packed, mut sizes) = (Vec::with_capacity(BLOCK), Vec::new(), Vec::new());
+        let (mut block, mut packed) = (Vec::with_capacity(BLOCK), Vec::new());
         for value in values {
             if block.len() == BLOCK {
-                sizes.push(self.pack(&block, &mut packed)?);
+                packed.push(self.packed_block(&block)?);
                 block.clear();
             }
             value.add(&mut block);
         }
-        sizes.push(self.pack(&block, &mut packed)?);
-        let header = [sizes.len(), BLOCK, block.len() % BLOCK].into_iter().chain(sizes);
-        self.base_64(&header.flat_map(|number| (number as u64).to_le_bytes()).collect::<Vec<_>>())?;
+        packed.push(self.packed_block(&block)?);
+        let sizes = packed.iter().map(|block| block.len());
+        let header = [packed.len(), BLOCK, block.len() % BLOCK].into_iter().chain(sizes);
+        let header: Vec<u8> = header.flat_map(|number| (number as u64).to_le_bytes()).collect();
+        self.base_64(&[header.into()])?;
         self.base_64(&packed)
     }
 
-    /// Adds a compressed block and returns its size.
-    fn pack(&mut self, block: &[u8], packed: &mut Vec<u8>) -> io::Result<usize> {
-        let start = packed.len();
+    /// A compressed block.
+    fn packed_block(&mut self, block: &[u8]) -> io::Result<Box<[u8]>> {
         if self.compression == Compression::Lz4 {
-            packed.extend(lz4_flex::block::compress(block));
-        } else {
-            self.zlib.write_all(block)?;
-            packed.extend(self.zlib.reset(Vec::new())?);
+            return Ok(lz4_flex::block::compress(block).into());
         }
-        Ok(packed.len() - start)
+        self.zlib.write_all(block)?;
+        Ok(self.zlib.reset(Vec::with_capacity(BLOCK))?.into())
     }
 
-    fn base_64(&mut self, bytes: &[u8]) -> io::Result<()> {
+    /// Writes all parts as one string.
+    fn base_64(&mut self, parts: &[Box<[u8]>]) -> io::Result<()> {
         let mut encoder = EncoderWriter::new(&mut *self.to, &STANDARD);
-        encoder.write_all(bytes)?;
+        parts.iter().try_for_each(|part| encoder.write_all(part))?;
         encoder.finish().map(|_| ())
     }
 }
