@@ -10,12 +10,13 @@
 use std::f64::consts::PI;
 
 use super::conditions::Conditions;
+use super::division::Division;
 use super::event::{Candidate, EventKind};
 use super::fronts::Neighbor;
 use super::loops::GateId;
 use super::merged::Merged;
 use super::mesh::{FrontId, Gate};
-use super::progress::{Displacement, Division};
+use super::progress::Displacement;
 use super::wall_chains::{Side, WallChains};
 use crate::graph::{Network, Pores};
 use meniscus_core::math::{Bounds, Vec2};
