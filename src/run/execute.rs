@@ -20,6 +20,7 @@ use super::steady::Steadiness;
 use meniscus_case::Case;
 use meniscus_core::solver::{Clock, Results, Series, Solver, StateError};
 use meniscus_output::checksum::fnv1a;
+use meniscus_output::network_page::{self, TooMany};
 use meniscus_output::picture::{PictureError, picture, region_map_picture};
 use meniscus_output::{FileError, atomic, diagram, table, vtk};
 use rayon::prelude::*;
@@ -74,6 +75,8 @@ pub struct Finished {
     pub folder: PathBuf,
     /// The picture, or why there is none.
     pub picture: Result<PathBuf, PictureError>,
+    /// The page to play the displacement, of the runs that have one; how many pores it would have where they are too many.
+    pub page: Option<Result<PathBuf, TooMany>>,
     /// Whether a resumed run was at its end already, so that nothing was done.
     pub was_at_end: bool,
 }
@@ -123,7 +126,8 @@ pub fn execute(
     let picture = draw(job, solver)?;
     write_results(job, &results)?;
     draw_diagrams(job, solver)?;
-    Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
+    let page = write_page(job, solver)?;
+    Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, page, was_at_end })
 }
 
 /// Runs a case with its solver, which is at time zero, to the same bits without files: its series and its report stay in memory, and its final state in its
@@ -251,6 +255,16 @@ fn draw_diagrams(job: &Job<'_>, solver: &dyn Solver) -> Result<(), FileError> {
         }
     }
     Ok(())
+}
+
+/// Writes the page on which the displacement is played, if the solver has one.
+fn write_page(job: &Job<'_>, solver: &dyn Solver) -> Result<Option<Result<PathBuf, TooMany>>, FileError> {
+    let Some(playback) = solver.playback() else { return Ok(None) };
+    let path = job.folder.join(network_page::NAME);
+    match network_page::page(&job.case.title, &[(&job.case.title, &playback)]) {
+        Ok(html) => atomic::write(&path, html.as_bytes()).map(|()| Some(Ok(path))),
+        Err(too_many) => Ok(Some(Err(too_many))),
+    }
 }
 
 #[cfg(test)]

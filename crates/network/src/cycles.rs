@@ -11,6 +11,7 @@ use super::graph::{Network, Pores};
 pub(crate) use super::half_cycle::HalfCycle;
 use super::moment::Moment;
 use super::region::Counted;
+use meniscus_core::playback::Change;
 pub use meniscus_case::FluidPhase;
 use meniscus_case::network::FilmModel;
 
@@ -72,6 +73,8 @@ pub struct Record {
     pub(crate) curve: Vec<CurvePoint>,
     /// The moment after first breakthrough.
     breakthrough: Option<Arc<Moment>>,
+    /// What elements came to hold.
+    pub(super) changes: Vec<Change>,
 }
 
 /// A displacement in half cycles.
@@ -179,6 +182,7 @@ impl Cycles {
             })
             .collect();
         self.displace(&filled);
+        self.note_beginning(&filled);
         let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
         for element in filled {
             self.record.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
@@ -266,6 +270,7 @@ impl Cycles {
         if self.record.breakthrough.is_none() && self.displacement.reached_outlet() {
             self.record.breakthrough = Some(Arc::new(self.moment()));
         }
+        self.note_changes(&event.elements);
         Some(event.kind.name())
     }
 

@@ -10,8 +10,9 @@ use super::displacement::EventKind;
 use super::measures::Costly;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
+use super::{flow, layers, measures, openpnm, pictures, playback, state, summary, tables, warnings};
 use meniscus_core::diagram::{Diagram, RegionMap};
+use meniscus_core::playback::Playback;
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
     Clock, Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
@@ -156,6 +157,10 @@ impl Solver for NetworkSolver {
         let occupation = cycles.map(|cycles| Occupation { menisci: cycles.all_menisci(config), ..cycles.occupation() });
         let progress = cycles.map(|cycles| cycles.progress(config));
         Some(pictures::region_map(config, occupation.as_ref().zip(progress)))
+    }
+
+    fn playback(&self) -> Option<Playback> {
+        self.cycles().map(|cycles| playback::playback(&self.model, cycles))
     }
 
     fn results(&self) -> Results<'_> {

@@ -102,7 +102,7 @@ fn of_pores(config: &Configuration, regions: &[bool]) -> Vec<bool> {
     found
 }
 
-fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
+pub(super) fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
     let all = || 0..config.pores.main_region.len();
     let mut columns = vec![
         // Number of the pore, from 0
@@ -162,7 +162,7 @@ fn state_columns(config: &Configuration, invading: FluidPhase, states: &[PoreSta
     ]
 }
 
-fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
+pub(super) fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
     let config = &model.config;
     let of = |value: fn(&Throat) -> f64| kept(config).map(value);
     let mut columns = vec![

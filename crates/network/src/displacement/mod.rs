@@ -25,6 +25,7 @@ mod outflow;
 mod outline;
 mod progress;
 mod reachable;
+mod rims;
 mod rings;
 mod sequence;
 mod snap_off;

@@ -83,6 +83,8 @@ pub struct Displacement {
     pub(super) partings: Vec<(f64, usize)>,
     is_outlet: Vec<bool>,
     has_reached_outlet: bool,
+    /// Elements trapped since this was last emptied.
+    pub(super) lost: Vec<usize>,
 }
 
 /// The division of the pore space into elements, independent of contact angles.
@@ -206,6 +208,7 @@ impl Displacement {
             partings,
             is_outlet: outlets,
             has_reached_outlet: false,
+            lost: Vec::new(),
         };
         begun.advance_from_all(&mesh, &first);
         for gate in (0..mesh.gates.len()).filter(|&gate| begun.closed[gate]).collect::<Vec<_>>() {
@@ -261,6 +264,7 @@ impl Displacement {
         for lost in lost {
             self.held[lost] = self.applied;
             self.stop_fronts_into(mesh, lost);
+            self.lost.push(lost);
         }
     }
 

@@ -38,6 +38,7 @@
 //! Left out: snap-off and retreat through a throat (a full element stays full), films, inertia, dynamic contact angles.
 
 mod capillary_curve;
+mod changes;
 mod conductors;
 mod cut_off;
 mod event_functions;
@@ -45,8 +46,8 @@ mod events;
 mod fingers;
 mod graph;
 mod known;
-mod measures;
-mod model;
+pub(crate) mod measures;
+pub(crate) mod model;
 mod open;
 mod path;
 pub(crate) mod solver;

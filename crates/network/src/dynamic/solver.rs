@@ -10,10 +10,11 @@ use crate::displacement::{Element, EventKind};
 use crate::laplacian::FlowError;
 use crate::model::Model;
 use crate::solver::{NetworkSolver, results_with};
-use crate::{layers, pictures, summary, warnings};
+use crate::{layers, pictures, playback, summary, warnings};
 use meniscus_case::network::Stop;
 use meniscus_core::diagram::{Diagram, RegionMap};
 use meniscus_core::math::Vec2;
+use meniscus_core::playback::Playback;
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
     Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
@@ -205,6 +206,10 @@ impl Solver for DynamicSolver {
     fn region_map(&self) -> Option<RegionMap> {
         let (occupation, progress) = (self.model.occupation(), self.model.progress());
         Some(pictures::region_map(&self.model.quasi_static.config, Some((&occupation, progress))))
+    }
+
+    fn playback(&self) -> Option<Playback> {
+        Some(playback::in_time(&self.model))
     }
 
     fn results(&self) -> Results<'_> {
