@@ -1,4 +1,4 @@
-//! `meniscus compare`: a network and a direct simulation of one geometry, side by side.
+//! `meniscus compare`: a network and a direct simulation of one geometry, or two networks, side by side.
 
 use std::path::PathBuf;
 
@@ -9,19 +9,20 @@ use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::new_folder;
 use super::threads::pool;
-use super::{interrupt, source};
+use super::{compare_networks, interrupt, source};
 use crate::run::compare::{
     CompareError, Comparison, DIRECT_RUN, Of, PAGE, Pair, Side, Task, compare as run_both, write,
 };
 use crate::run::execute::Mode;
 use crate::run::folder;
+use meniscus_case::Model;
 
 /// `compare`.
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
     /// Case file with [network] and an inlet
     pub(crate) network: PathBuf,
-    /// Case file with [sph] and two fluids, of the same geometry
+    /// Case file with [sph] and two fluids, of the same geometry; or another one with [network] and an inlet
     pub(crate) direct: PathBuf,
     /// States of the direct simulation that are compared
     #[arg(long, value_name = "N", default_value = "100")]
@@ -41,6 +42,9 @@ pub(crate) struct CompareArguments {
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
+    if [&network, &direct].iter().all(|source| matches!(source.case.model, Model::Network(_))) {
+        return compare_networks::compare(&[network, direct], arguments);
+    }
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
     let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), mode);
     let claim = if arguments.resume { folder::reopen(&out, &out.join(DIRECT_RUN)) } else { folder::create(&out) };

@@ -1,6 +1,6 @@
 //! A displacement as data to play: what each area of a drawing holds after every event.
 
-use crate::diagram::Frame;
+use crate::diagram::{Frame, Through};
 use crate::table::Table;
 
 /// A piece of the boundary of an area: from its start to that of the next piece.
@@ -70,7 +70,39 @@ pub struct Stage {
     /// Whether the wetting phase invades.
     pub wetting_invades: bool,
     /// Direction of flow through the left, right, bottom and top side.
-    pub open: [Option<crate::diagram::Through>; 4],
+    pub open: [Option<Through>; 4],
+    /// The row after which the invading phase is at the outlet, if it gets there.
+    pub breakthrough: Option<usize>,
+}
+
+/// From a row on, films of an area keep the thickness at a capillary pressure, or follow it again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KeptFilm {
+    /// Row of the event.
+    pub row: u32,
+    /// Index of the area.
+    pub area: u32,
+    /// Number of the films in the area.
+    pub part: u32,
+    /// (p_n - p_w)/σ in 1/m; NaN if they follow the applied one.
+    pub curvature: f64,
+}
+
+/// The corner films along the walls of areas of the non-wetting phase. Seen from above they are r times a width wide, with r = 1/(κ + head), κ = (p_n - p_w)/σ.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlayedFilms {
+    /// By edge of all areas in order: the width over r, 0 where there is none.
+    pub widths: Vec<f64>,
+    /// By edge: the number of the films in the area.
+    pub parts: Vec<usize>,
+    /// By area: the largest r in m.
+    pub largest: Vec<f64>,
+    /// By area: what gravity adds to κ in 1/m.
+    pub heads: Vec<f64>,
+    /// By row: the applied κ in 1/m.
+    pub curvatures: Vec<f64>,
+    /// Films that do not follow it, in the order of rows.
+    pub kept: Vec<KeptFilm>,
 }
 
 /// A displacement in a network.
@@ -94,6 +126,8 @@ pub struct Playback {
     pub stages: Vec<Stage>,
     /// What happened, in the order of rows.
     pub changes: Vec<Change>,
+    /// Corner films, if there are any.
+    pub films: Option<PlayedFilms>,
     /// What the numbers are of: per meter of depth in the plane, or of a chip of a depth in m.
     pub depth: Option<f64>,
 }

@@ -11,7 +11,7 @@ use super::graph::{Network, Pores};
 pub(crate) use super::half_cycle::HalfCycle;
 use super::moment::Moment;
 use super::region::Counted;
-use meniscus_core::playback::Change;
+use meniscus_core::playback::{Change, KeptFilm};
 pub use meniscus_case::FluidPhase;
 use meniscus_case::network::FilmModel;
 
@@ -75,6 +75,9 @@ pub struct Record {
     breakthrough: Option<Arc<Moment>>,
     /// What elements came to hold.
     pub(super) changes: Vec<Change>,
+    /// Of the corner films, (p_n - p_w)/σ in 1/m by row and those that keep another one.
+    pub(super) film_curvatures: Vec<f64>,
+    pub(super) kept_films: Vec<KeptFilm>,
 }
 
 /// A displacement in half cycles.
@@ -188,6 +191,7 @@ impl Cycles {
             self.record.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         }
         self.update_films();
+        self.note_films();
         let first_saturation = [saturation, self.saturation()];
         // Openings have no entry pressure, so there is none to record.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));

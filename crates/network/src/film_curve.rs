@@ -68,8 +68,8 @@ impl Cycles {
         let applied = half.invading.towards_wetting(end);
         self.set_film_curvature(end);
         self.displacement.apply(end);
-        self.note_changes(&[]);
         self.update_films();
+        self.note_changes(&[]);
         self.record.outcomes[self.half_cycle].last = Some(applied);
     }
 

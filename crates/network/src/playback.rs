@@ -1,7 +1,7 @@
 //! A displacement as data to play, from event to event.
 
-use super::cycles::Cycles;
-use super::displacement::{Displacement, Element, Phase};
+use super::cycles::{Cycles, Entry};
+use super::displacement::{Displacement, Element, Phase, edges as edges_of};
 use super::dynamic::measures;
 use super::dynamic::model::DynamicModel;
 use super::model::{Configuration, Model};
@@ -9,7 +9,9 @@ use super::pictures::process_name;
 use super::tables::{self, numbers_of_throats};
 use meniscus_case::FluidPhase;
 use meniscus_core::diagram::Frame;
-use meniscus_core::playback::{Change, Edge, Holding, Passage, PlayedArea, Playback, Stage};
+use meniscus_core::playback::{
+    Change, Edge, Holding, KeptFilm, Passage, PlayedArea, Playback, PlayedFilms, Stage,
+};
 use meniscus_core::table::Table;
 use meniscus_geometry::curve::Curve;
 
@@ -65,6 +67,51 @@ impl Cycles {
         let change = |holding| move |&element: &usize| Change { row, area: element as u32, holding };
         self.record.changes.extend(filled.iter().map(change(Holding::Invaded)));
         self.record.changes.extend(lost.iter().map(change(Holding::Trapped)));
+        self.note_films();
+    }
+
+    /// Notes the thickness of films after the last event.
+    pub(super) fn note_films(&mut self) {
+        let row = self.row();
+        let Some(films) = &mut self.films else { return };
+        self.record.film_curvatures.resize(row as usize + 1, f64::NAN);
+        self.record.film_curvatures[row as usize] = films.curvature;
+        let kept = |(area, part, curvature)| KeptFilm { row, area: area as u32, part: part as u32, curvature };
+        self.record.kept_films.extend(films.log.drain(..).map(kept));
+    }
+
+    /// The films along the edges of areas.
+    fn played_films(&self) -> Option<PlayedFilms> {
+        let films = self.films.as_ref()?;
+        let record = &self.record;
+        let mut played = PlayedFilms {
+            curvatures: record.film_curvatures.clone(),
+            kept: record.kept_films.clone(),
+            ..PlayedFilms::default()
+        };
+        for element in 0..self.displacement.elements().len() {
+            let [largest, head] = films.limits(element);
+            played.largest.push(largest);
+            played.heads.push(head);
+            for (curve, wall) in rim(&self.displacement, element) {
+                let along = |(piece, shape)| films.along(&self.displacement, element, piece, shape);
+                let (width, part) = wall.map_or((0.0, 0), along);
+                // As many as the edges of the curve.
+                for _ in edges(&curve, wall.is_some()) {
+                    played.widths.push(width);
+                    played.parts.push(part);
+                }
+            }
+        }
+        Some(played)
+    }
+
+    /// Number of events of a half cycle until the first with this applied curvature and saturation of the invading phase; 0 without a curvature.
+    fn events_until(&self, half_cycle: usize, (applied, saturation): (f64, f64)) -> usize {
+        let invading = self.half_cycles()[half_cycle].invading;
+        let mut events = self.history().iter().filter(|entry| entry.half_cycle == half_cycle);
+        let is_found = |it: &Entry| it.applied == applied && invading.saturation(it.saturation) == saturation;
+        events.position(is_found).map_or(0, |before| before + 1)
     }
 
     fn stages(&self) -> Vec<Stage> {
@@ -77,6 +124,7 @@ impl Cycles {
                 first,
                 wetting_invades: half.invading == FluidPhase::Wetting,
                 open: half.open_sides(),
+                breakthrough: outcome.breakthrough.map(|found| first + self.events_until(index, found)),
             });
             first += outcome.events + 1;
         }
@@ -91,6 +139,7 @@ pub(crate) fn playback(model: &Model, cycles: &Cycles) -> Playback {
         curve: tables::capillary_pressure(&model.config, cycles).map(|curve| with(curve, OF_CURVE)),
         stages: cycles.stages(),
         changes: cycles.record.changes.clone(),
+        films: cycles.played_films(),
         ..drawing(model, &cycles.displacement)
     }
 }
@@ -100,9 +149,10 @@ pub(crate) fn in_time(model: &DynamicModel) -> Playback {
     let (dynamic, config) = (&model.dynamic, &model.quasi_static.config);
     let wetting_invades = model.invading == FluidPhase::Wetting;
     let open = config.sides.map(super::pictures::through);
+    let reached = dynamic.breakthrough().map(|it| dynamic.history().partition_point(|event| event.time <= it.time));
     Playback {
         events: with(measures::events(model), OF_EVENTS),
-        stages: vec![Stage { name: model.invading.process().to_owned(), first: 0, wetting_invades, open }],
+        stages: vec![Stage { name: model.invading.process().to_owned(), first: 0, wetting_invades, open, breakthrough: reached }],
         changes: dynamic.changes(),
         ..drawing(&model.quasi_static, dynamic.displacement())
     }
@@ -114,7 +164,7 @@ fn drawing(model: &Model, displacement: &Displacement) -> Playback {
     let number_of = numbers_of_throats(config);
     let elements = displacement.elements().iter().enumerate();
     let area = |(index, element): (usize, &Element)| PlayedArea {
-        boundary: boundary(displacement, index, element),
+        boundary: rim(displacement, index).iter().flat_map(|(curve, wall)| edges(curve, wall.is_some())).collect(),
         area: element.area,
         pore: config.pores.pore_of[element.region],
     };
@@ -133,6 +183,7 @@ fn drawing(model: &Model, displacement: &Displacement) -> Playback {
         curve: None,
         stages: Vec::new(),
         changes: Vec::new(),
+        films: None,
         depth: config.network.depth,
     }
 }
@@ -145,13 +196,10 @@ fn frame(config: &Configuration) -> Frame {
     }
 }
 
-/// The boundary of an element: its curves, or where these do not close its outline.
-fn boundary(displacement: &Displacement, index: usize, element: &Element) -> Vec<Edge> {
-    let Some(rim) = displacement.rim(index) else {
-        let edge = |point: &meniscus_core::math::Vec2| Edge { start: (*point).into(), sweep: 0.0, is_wall: false };
-        return element.outline.iter().map(edge).collect();
-    };
-    rim.iter().flat_map(|(curve, is_wall)| edges(curve, *is_wall)).collect()
+/// The boundary of an element: its curves, or where these do not close its outline without walls.
+fn rim(displacement: &Displacement, index: usize) -> Vec<(Curve, Option<(usize, u32)>)> {
+    let outline = &displacement.elements()[index].outline;
+    displacement.rim(index).unwrap_or_else(|| edges_of(outline).map(|(a, b)| (Curve::Segment { a, b }, None)).collect())
 }
 
 /// A curve as edges of at most half a turn.

@@ -17,16 +17,16 @@ pub(crate) struct Joint {
 }
 
 impl Displacement {
-    /// The boundary of an element, each curve with whether it is a wall; `None` if it does not close, as around a periodic domain.
-    pub(crate) fn rim(&self, element: usize) -> Option<Vec<(Curve, bool)>> {
+    /// The boundary of an element, each curve with its number among the pieces of wall and the shape of it, if it is one; `None` if it does not close, as around a periodic domain.
+    pub(crate) fn rim(&self, element: usize) -> Option<Vec<(Curve, Option<(usize, u32)>)>> {
         let part = &self.mesh.loops[element];
         if part.has_seam || !part.apart.is_empty() {
             return None;
         }
-        let mut rim = Vec::new();
+        let (mut rim, mut pieces) = (Vec::new(), 0..);
         for (k, wall) in part.walls.iter().enumerate() {
-            rim.extend(wall.iter().map(|piece| (piece.curve, true)));
-            rim.extend(part.crossings.get(k).map(|it| (Curve::Segment { a: it.from, b: it.to }, false)));
+            rim.extend(wall.iter().zip(&mut pieces).map(|(piece, number)| (piece.curve, Some((number, piece.shape)))));
+            rim.extend(part.crossings.get(k).map(|it| (Curve::Segment { a: it.from, b: it.to }, None)));
         }
         rim.retain(|(curve, _)| curve.length() > 0.0);
         Some(rim)

@@ -154,7 +154,21 @@ class Curve {
             layer.stroke();
         }));
         layer.setLineDash([]);
+        this.paintBreakthroughs(layer, ink);
         this.mark();
+    }
+
+    /** Rings where the invading phase reaches the outlet. */
+    paintBreakthroughs(layer, ink) {
+        layer.strokeStyle = ink;
+        layer.lineWidth = 1.5;
+        this.runs.forEach((run, k) => run.stages.forEach(({ breakthrough }) => {
+            const point = this.shown[k].points[breakthrough];
+            if (!point?.every(Number.isFinite)) return;
+            layer.beginPath();
+            layer.arc(...this.at(point), 4, 0, 2 * Math.PI);
+            layer.stroke();
+        }));
     }
 
     move(rows) {

@@ -129,8 +129,35 @@ class Run {
         this.stages = data.stages.map((stage, k) => ({ ...stage, end: data.stages[k + 1]?.first ?? this.rows }));
         this.timeline = new Timeline(this.areas.count, this.rows, this.stages, unpackedTable(data.changes));
         this.pressure = this.events.capillary_pressure_Pa ?? this.events.pressure_difference_Pa;
+        this.films = data.films ? unpackedTable(data.films) : null;
+        if (this.films) this.findFilms();
         this.findDisplaced();
         this.findPassages();
+    }
+
+    /** For each area one edge of each width of its films, and by area and part the curvatures that films keep. */
+    findFilms() {
+        const { width, part, kept_row, kept_area, kept_part, kept_curvature } = this.films;
+        this.edgesOfFilms = Array.from({ length: this.areas.count }, (_, area) => {
+            const edges = Array.from({ length: this.areas.edges[area] }, (_, k) => this.areas.first[area] + k);
+            const found = new Map(edges.filter(k => width[k] > 0).map(k => [`${part[k]} ${width[k]}`, k]));
+            return [...found.values()];
+        });
+        this.keptFilms = new Map();
+        kept_row.forEach((row, k) => {
+            const key = 256 * kept_area[k] + kept_part[k];
+            if (!this.keptFilms.has(key)) this.keptFilms.set(key, []);
+            this.keptFilms.get(key).push({ row, curvature: kept_curvature[k] });
+        });
+    }
+
+    /** The width in m of the film along an edge of an area now. */
+    filmWidth(area, edge) {
+        const { films, timeline: { row } } = this;
+        const kept = this.keptFilms.get(256 * area + films.part[edge])?.findLast(it => it.row <= row)?.curvature;
+        const curvature = (kept >= -Infinity ? kept : films.curvature[row]) + films.head[area];
+        const radius = curvature > 0 ? Math.min(1 / curvature, films.largest[area]) : films.largest[area];
+        return Number.isFinite(radius) ? radius * films.width[edge] : 0;
     }
 
     /** The displaced share of the pore space after each row of its half cycle. */
@@ -147,6 +174,17 @@ class Run {
             }
             stage.largest = sum / all || 1;
         }
+    }
+
+    /** These areas and all beside them. */
+    withNeighbors(areas) {
+        const found = new Set(areas), { one, other, count } = this.passages;
+        const has = new Set(areas);
+        for (let k = 0; k < count; k++) {
+            if (has.has(one[k])) found.add(other[k]);
+            if (has.has(other[k])) found.add(one[k]);
+        }
+        return found;
     }
 
     /** The areas of each pore, and the passage and the pores of each throat. */

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use super::columns::{Columns, Packed, columns};
 use meniscus_core::diagram::{Color, Through, colors};
-use meniscus_core::playback::{Change, Edge, Holding, Playback, Stage};
+use meniscus_core::playback::{Change, Edge, Holding, Playback, PlayedFilms, Stage};
 use serde::Serialize;
 
 /// In place of the angle of an edge that is no wall.
@@ -42,6 +42,7 @@ struct Run<'a> {
     curve: Option<Columns>,
     stages: Vec<StageOfRun<'a>>,
     changes: Columns,
+    films: Option<Columns>,
 }
 
 #[derive(Serialize)]
@@ -51,6 +52,8 @@ struct StageOfRun<'a> {
     wetting_invades: bool,
     /// `in`, `out` or nothing at the left, right, bottom and top side.
     open: [&'static str; 4],
+    /// Row at which the invading phase is at the outlet.
+    breakthrough: Option<usize>,
 }
 
 /// The data of named runs.
@@ -146,6 +149,7 @@ fn run<'a>(title: &'a str, playback: &'a Playback) -> Run<'a> {
         curve: playback.curve.as_ref().map(columns),
         stages: playback.stages.iter().map(stage).collect(),
         changes: changes(&playback.changes),
+        films: playback.films.as_ref().map(films),
     }
 }
 
@@ -165,7 +169,23 @@ fn stage(stage: &Stage) -> StageOfRun<'_> {
         first: stage.first,
         wetting_invades: stage.wetting_invades,
         open: stage.open.map(word),
+        breakthrough: stage.breakthrough,
     }
+}
+
+fn films(films: &PlayedFilms) -> Columns {
+    let numbers = |values: &[f64]| Packed::numbers(values.iter().copied());
+    Columns::from([
+        ("width", numbers(&films.widths)),
+        ("part", Packed::counts(films.parts.iter().copied())),
+        ("largest", numbers(&films.largest)),
+        ("head", numbers(&films.heads)),
+        ("curvature", numbers(&films.curvatures)),
+        ("kept_row", Packed::counts(films.kept.iter().map(|kept| kept.row as usize))),
+        ("kept_area", Packed::counts(films.kept.iter().map(|kept| kept.area as usize))),
+        ("kept_part", Packed::counts(films.kept.iter().map(|kept| kept.part as usize))),
+        ("kept_curvature", Packed::numbers(films.kept.iter().map(|kept| kept.curvature))),
+    ])
 }
 
 /// Changes with the number of rows since the last one.

@@ -2,8 +2,10 @@
 
 /** Number of colors from the first to the last invaded area. */
 const SHADES = 64;
-/** Pixels around the drawing. */
-const RIM = 26;
+/** Pixels beside open sides, for arrows, and beside others. */
+const RIMS = [26, 4];
+/** The smallest visible width of a film in pixels. */
+const THINNEST = 2;
 
 /** The color at a fraction of a bar of colors. */
 function mixed(bar, fraction) {
@@ -33,105 +35,17 @@ class ChipMap {
             return canvas.getContext("2d");
         });
         this.palettes = new Map(run.stages.map(stage => [stage, palette(colors, stage)]));
-        this.findImages();
-        this.paths = Array.from({ length: run.areas.count }, (_, area) => this.pathOf(area));
-        this.pore = new Path2D();
-        this.paths.forEach(path => this.pore.addPath(path));
-        this.walls = this.pathOfWalls();
-        this.findCells();
+        const isOpen = axis => run.stages.some(({ open }) => open[2 * axis] !== "" || open[2 * axis + 1] !== "");
+        this.rim = [0, 1].map(axis => RIMS[isOpen(axis) ? 0 : 1]);
+        this.filmWidths = run.films && new Float32Array(run.areas.count);
         new ResizeObserver(() => this.resize()).observe(this.element);
-    }
-
-    /** The shifts at which each area is seen in a periodic domain. */
-    findImages() {
-        const { areas, periodic, bounds } = this.run;
-        const size = [0, 1].map(axis => bounds[1][axis] - bounds[0][axis]);
-        const along = axis => (periodic[axis] ? [0, -size[axis], size[axis]] : [0]);
-        const all = along(0).flatMap(dx => along(1).map(dy => [dx, dy]));
-        this.shifts = Array.from({ length: areas.count }, (_, area) => {
-            const [from, to] = [areas.first[area], areas.first[area + 1]];
-            const ends = ["x", "y"].map(axis => {
-                const values = areas[axis].subarray(from, to);
-                return [Math.min(...values), Math.max(...values)];
-            });
-            const sees = shift => [0, 1].every(axis =>
-                ends[axis][1] + shift[axis] > bounds[0][axis] && ends[axis][0] + shift[axis] < bounds[1][axis]);
-            return all.filter((shift, k) => k === 0 || sees(shift));
-        });
-    }
-
-    /** Adds an edge of an area, from its start, at which the path is. */
-    addEdge(path, k, next, [dx, dy]) {
-        const { x, y, sweep } = this.run.areas;
-        const [ax, ay, bx, by] = [x[k] + dx, y[k] + dy, x[next] + dx, y[next] + dy];
-        const angle = sweep[k] === NO_WALL ? 0 : sweep[k] / HALF_TURN * Math.PI;
-        if (angle === 0 || (ax === bx && ay === by)) return path.lineTo(bx, by);
-        const height = 0.5 / Math.tan(0.5 * angle);
-        const [cx, cy] = [0.5 * (ax + bx) - height * (by - ay), 0.5 * (ay + by) + height * (bx - ax)];
-        const start = Math.atan2(ay - cy, ax - cx);
-        path.arc(cx, cy, Math.hypot(ax - cx, ay - cy), start, start + angle, angle < 0);
-    }
-
-    pathOf(area) {
-        const { first, x, y } = this.run.areas, path = new Path2D();
-        const [from, to] = [first[area], first[area + 1]];
-        for (const shift of this.shifts[area]) {
-            path.moveTo(x[from] + shift[0], y[from] + shift[1]);
-            for (let k = from; k < to; k++) this.addEdge(path, k, k + 1 < to ? k + 1 : from, shift);
-            path.closePath();
-        }
-        return path;
-    }
-
-    pathOfWalls() {
-        const { first, x, y, sweep, count } = this.run.areas, path = new Path2D();
-        for (let area = 0; area < count; area++) {
-            const [from, to] = [first[area], first[area + 1]];
-            for (const shift of this.shifts[area]) {
-                for (let k = from; k < to; k++) {
-                    if (sweep[k] === NO_WALL) continue;
-                    path.moveTo(x[k] + shift[0], y[k] + shift[1]);
-                    this.addEdge(path, k, k + 1 < to ? k + 1 : from, shift);
-                }
-            }
-        }
-        return path;
-    }
-
-    /** Lists of the areas and throats in each cell of a grid, to find what is under the pointer. */
-    findCells() {
-        const { areas, passages, bounds } = this.run;
-        const size = Math.max(bounds[1][0] - bounds[0][0], bounds[1][1] - bounds[0][1]);
-        this.cell = size / Math.max(4, Math.ceil(Math.sqrt(areas.count)));
-        this.cells = new Map();
-        const put = (kind, index, xs, ys) => {
-            const at = value => Math.floor(value / this.cell);
-            for (let i = at(Math.min(...xs)); i <= at(Math.max(...xs)); i++) {
-                for (let j = at(Math.min(...ys)); j <= at(Math.max(...ys)); j++) {
-                    const key = `${i},${j}`;
-                    if (!this.cells.has(key)) this.cells.set(key, { areas: [], passages: [] });
-                    this.cells.get(key)[kind].push(index);
-                }
-            }
-        };
-        const { x1, y1, x2, y2 } = passages;
-        for (let area = 0; area < areas.count; area++) {
-            const [from, to] = [areas.first[area], areas.first[area + 1]];
-            for (const [dx, dy] of this.shifts[area]) {
-                const [xs, ys] = [areas.x, areas.y].map(values => Array.from(values.subarray(from, to)));
-                put("areas", area, xs.map(x => x + dx), ys.map(y => y + dy));
-            }
-        }
-        for (let k = 0; k < passages.count; k++) {
-            if (passages.throat[k] > 0) put("passages", k, [x1[k], x2[k]], [y1[k], y2[k]]);
-        }
     }
 
     resize() {
         const [[left, bottom], [right, top]] = this.run.bounds;
         const width = this.element.clientWidth;
         const most = Math.max(220, 0.72 * window.innerHeight);
-        const height = Math.min(most, (width - 2 * RIM) * (top - bottom) / (right - left) + 2 * RIM);
+        const height = Math.min(most, (width - 2 * this.rim[0]) * (top - bottom) / (right - left) + 2 * this.rim[1]);
         if (width === this.width && height === this.height && devicePixelRatio === this.ratio) return;
         Object.assign(this, { width, height, ratio: devicePixelRatio });
         this.element.style.height = `${height}px`;
@@ -145,7 +59,7 @@ class ChipMap {
     /** From units of the drawing to pixels of the page. */
     view() {
         const [[left, bottom], [right, top]] = this.run.bounds;
-        const fit = Math.min((this.width - 2 * RIM) / (right - left), (this.height - 2 * RIM) / (top - bottom));
+        const fit = Math.min((this.width - 2 * this.rim[0]) / (right - left), (this.height - 2 * this.rim[1]) / (top - bottom));
         const scale = fit * this.zoom;
         const [x, y] = this.center ?? [0.5 * (left + right), 0.5 * (bottom + top)];
         return { scale, x: 0.5 * this.width - scale * x, y: 0.5 * this.height + scale * y };
@@ -158,8 +72,8 @@ class ChipMap {
         layer.setTransform(ratio, 0, 0, ratio, 0, 0);
         layer.save();
         layer.beginPath();
-        if (this.zoom > 1) layer.rect(RIM, RIM, this.width - 2 * RIM, this.height - 2 * RIM);
-        if (this.zoom > 1) layer.clip();
+        layer.rect(0, 0, this.width, this.height);
+        layer.clip();
         layer.setTransform(ratio * scale, 0, 0, -ratio * scale, ratio * x, ratio * y);
         layer.beginPath();
         layer.rect(left, bottom, right - left, top - bottom);
@@ -191,24 +105,79 @@ class ChipMap {
         groups.forEach((group, color) => {
             if (group.length === 0) return;
             this.fluids.fillStyle = this.fluids.strokeStyle = colors[color];
-            let path = this.paths[group[0]];
+            let path = this.shapes.paths[group[0]];
             if (group.length > 1) {
                 path = new Path2D();
-                group.forEach(area => path.addPath(this.paths[area]));
+                group.forEach(area => path.addPath(this.shapes.paths[area]));
             }
             this.fluids.fill(path);
             this.fluids.stroke(path);
         });
+        if (this.run.films) this.paintFilms(this.run.withNeighbors(areas), stage);
         this.fluids.restore();
+    }
+
+    /** Films along the walls of areas of the non-wetting phase; the solid covers the other half of each line. */
+    paintFilms(areas, stage) {
+        const { run } = this, { first, sweep } = run.areas, groups = new Map();
+        const { scale } = this.view();
+        for (const area of areas) {
+            this.filmWidths[area] = this.filmWidth(area, scale);
+            if (this.filmWidths[area] === 0) continue;
+            const [from, to] = [first[area], first[area + 1]];
+            for (let k = from; k < to; k++) {
+                const width = sweep[k] === NO_WALL ? 0 : this.pixelsOfFilm(area, k, scale);
+                if (width === 0) continue;
+                if (!groups.has(width)) groups.set(width, new Path2D());
+                for (const shift of this.shapes.shifts[area]) {
+                    groups.get(width).moveTo(run.areas.x[k] + shift[0], run.areas.y[k] + shift[1]);
+                    this.shapes.addEdge(groups.get(width), k, k + 1 < to ? k + 1 : from, shift);
+                }
+            }
+        }
+        this.fluids.strokeStyle = this.colors[stage.wetting_invades ? "wetting_before" : "wetting"][0];
+        for (const [width, path] of groups) {
+            this.fluids.lineWidth = 2 * width * this.pixel;
+            this.fluids.stroke(path);
+        }
+    }
+
+    /** The width of the film along an edge in half pixels. */
+    pixelsOfFilm(area, k, scale) {
+        const width = this.run.filmWidth(area, k) / this.run.step * scale;
+        return width > 0 ? 0.5 * Math.round(2 * Math.max(width, THINNEST)) : 0;
+    }
+
+    /** The largest of those of an area; 0 where the wetting phase is. */
+    filmWidth(area, scale) {
+        const { run } = this, invades = run.timeline.holding[area] >= BEFORE;
+        if (invades === run.stageAt(run.timeline.row).wetting_invades) return 0;
+        return run.edgesOfFilms[area].reduce((most, k) => Math.max(most, this.pixelsOfFilm(area, k, scale)), 0);
+    }
+
+    /** The areas whose films have another width than they are drawn with. */
+    changedFilms() {
+        const { scale } = this.view(), found = [];
+        for (let area = 0; area < this.filmWidths.length; area++) {
+            if (this.filmWidth(area, scale) !== this.filmWidths[area]) found.push(area);
+        }
+        return found;
     }
 
     paintAll() {
         if (!this.width) return;
+        this.refine();
         this.clear(this.fluids);
         this.stage = this.run.stageAt(this.run.timeline.row);
-        this.paintAreas(this.paths.keys());
+        this.paintAreas(this.shapes.paths.map((_, area) => area));
         this.paintSolids();
         this.paintMarks();
+    }
+
+    /** Sets the tolerance of shapes to a fifth of a pixel, anew if the drawing is four times larger or smaller. */
+    refine() {
+        const tolerance = 0.2 / this.view().scale, ratio = this.shapes?.tolerance / tolerance;
+        if (!(ratio >= 0.25 && ratio <= 2)) this.shapes = new Shapes(this.run, tolerance);
     }
 
     paintSolids() {
@@ -219,31 +188,23 @@ class ChipMap {
         layer.fillStyle = look.getPropertyValue("--solid");
         layer.fillRect(left, bottom, right - left, top - bottom);
         layer.globalCompositeOperation = "destination-out";
-        layer.fill(this.pore);
+        layer.fill(this.shapes.pore);
         layer.globalCompositeOperation = "source-over";
         layer.strokeStyle = look.getPropertyValue("--wall");
         layer.lineWidth = 1.3 * thin * this.pixel;
-        layer.stroke(this.walls);
+        layer.stroke(this.shapes.walls);
         layer.strokeStyle = this.colors.mark[0];
         layer.lineWidth = 1.3 * thin * this.pixel;
         layer.setLineDash([4 * this.pixel, 3 * this.pixel]);
         layer.beginPath();
-        for (let k = 0; k < passages.count; k++) if (passages.throat[k] > 0) this.addPassage(layer, k);
+        for (let k = 0; k < passages.count; k++) if (passages.throat[k] > 0) this.shapes.addPassage(layer, k);
         layer.stroke();
         layer.restore();
-        this.paintFrame(layer, look);
-    }
-
-    addPassage(layer, k) {
-        const { x1, y1, x2, y2, one } = this.run.passages;
-        for (const [dx, dy] of this.shifts[one[k]]) {
-            layer.moveTo(x1[k] + dx, y1[k] + dy);
-            layer.lineTo(x2[k] + dx, y2[k] + dy);
-        }
     }
 
     /** The closed sides of the domain, and arrows through the open ones. */
-    paintFrame(layer, look) {
+    paintFrame(layer) {
+        const look = getComputedStyle(this.element);
         const { scale, x, y } = this.view(), [[left, bottom], [right, top]] = this.run.bounds;
         const { open } = this.stage, { periodic } = this.run;
         const [l, r, b, t] = [x + scale * left, x + scale * right, y - scale * bottom, y - scale * top];
@@ -285,19 +246,20 @@ class ChipMap {
         layer.lineWidth = (areas.count > 1500 && this.zoom < 3 ? 1.2 : 2.4) * this.pixel;
         layer.beginPath();
         for (let k = 0; k < passages.count; k++) {
-            if (holding[one[k]] >= BEFORE !== holding[other[k]] >= BEFORE) this.addPassage(layer, k);
+            if (holding[one[k]] >= BEFORE !== holding[other[k]] >= BEFORE) this.shapes.addPassage(layer, k);
         }
         layer.stroke();
         for (const [found, width] of [[this.marked, 4], [this.hovered, 3]]) if (found) this.paintFound(layer, found, width);
         layer.restore();
+        this.paintFrame(layer);
     }
 
     paintFound(layer, { pore, throat }, width) {
         const path = new Path2D();
         if (throat !== undefined) {
-            this.addPassage(path, this.run.passageOfThroat[throat]);
+            this.shapes.addPassage(path, this.run.passageOfThroat[throat]);
         } else {
-            this.run.areasOfPore[pore].forEach(area => path.addPath(this.paths[area]));
+            this.run.areasOfPore[pore].forEach(area => path.addPath(this.shapes.paths[area]));
         }
         for (const [color, wide] of [["#fff", width + 2], ["#000", width - 1]]) {
             layer.strokeStyle = color;
@@ -310,8 +272,10 @@ class ChipMap {
     move(row) {
         const changed = this.run.timeline.move(row), stage = this.run.stageAt(row);
         if (!this.width) return;
-        if (stage !== this.stage) return this.paintAll();
-        if (changed.length > 0) this.paintAreas(new Set(changed));
+        const areas = new Set(this.run.films ? [...changed, ...this.changedFilms()] : changed);
+        if (stage !== this.stage) this.shapes.paths.forEach((_, area) => areas.add(area));
+        this.stage = stage;
+        if (areas.size > 0) this.paintAreas(areas);
         this.paintMarks();
     }
 
@@ -323,8 +287,9 @@ class ChipMap {
 
     /** The throat or the pore at a place, `reach` pixels around throats. */
     find(px, py, reach) {
+        if (!this.shapes) return null;
         const [x, y] = this.place(px, py), { passages, areas } = this.run, { x1, y1, x2, y2 } = passages;
-        const cell = this.cells.get(`${Math.floor(x / this.cell)},${Math.floor(y / this.cell)}`);
+        const cell = this.shapes.cells.get(`${Math.floor(x / this.shapes.cell)},${Math.floor(y / this.shapes.cell)}`);
         if (!cell) return null;
         let nearest = { distance: reach * this.pixel, passage: -1 };
         for (const k of cell.passages) {
@@ -336,7 +301,7 @@ class ChipMap {
         if (nearest.passage >= 0) return { throat: passages.throat[nearest.passage] - 1 };
         const layer = this.marks;
         layer.setTransform(1, 0, 0, 1, 0, 0);
-        const area = cell.areas.find(area => layer.isPointInPath(this.paths[area], x, y));
+        const area = cell.areas.find(area => layer.isPointInPath(this.shapes.paths[area], x, y));
         return area === undefined ? null : { pore: areas.pore[area] };
     }
 

@@ -1,7 +1,7 @@
 //! The page on which a displacement in a network is played: one HTML file that opens from the disk without a network.
 //!
 //! `page.html` is its frame, `page.css` its look. Its scripts come one after the other: `data.js` unpacks the data and knows what each area holds at an event,
-//! `map.js` draws the areas, `curve.js` the curve, `page.js` moves both. The data are columns: base64 of little-endian numbers.
+//! `shapes.js` has their outlines, `map.js` draws them, `curve.js` the curve, `page.js` moves both. The data are columns: base64 of little-endian numbers.
 
 mod columns;
 mod data;
@@ -17,8 +17,13 @@ pub const MOST_PORES: usize = 200_000;
 
 const FRAME: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPTS: [&str; 4] =
-    [include_str!("data.js"), include_str!("map.js"), include_str!("curve.js"), include_str!("page.js")];
+const SCRIPTS: [&str; 5] = [
+    include_str!("data.js"),
+    include_str!("shapes.js"),
+    include_str!("map.js"),
+    include_str!("curve.js"),
+    include_str!("page.js"),
+];
 
 /// More pores than a page can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

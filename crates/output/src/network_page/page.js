@@ -23,7 +23,7 @@ const ROWS = {
     width_m: ["width", lengthText],
     length_m: ["length, pore to pore", lengthText],
     entry_pressure_Pa: ["entry pressure", value => `${shortNumber(value)} Pa`],
-    conductance_m2: ["conductance", value => `${shortNumber(value)} m²`],
+    conductance_m2: ["conductance per depth", value => `${shortNumber(value)} m²`],
     conductance_m3: ["conductance", value => `${shortNumber(value)} m³`],
     inscribed_radius_m: ["inscribed radius", lengthText],
     area_m2: ["area", value => `${shortNumber(value * 1e12)} µm²`],
@@ -66,7 +66,8 @@ function eventText(run, row) {
     const number = row - stage.first, last = stage.end - stage.first - 1;
     if (number === 0) return `${stage.name}: beginning`;
     const where = throat[row] > 0 ? ` through throat ${throat[row] - 1}` : "";
-    return `${stage.name}, event ${number} of ${last}: ${event[row]}${where}`;
+    const reaches = stage.breakthrough === row ? ", breakthrough" : "";
+    return `${stage.name}, event ${number} of ${last}: ${event[row]}${where}${reaches}`;
 }
 
 /** Name, value and text of what is known at a row. */
@@ -77,7 +78,7 @@ function valuesAt(run, row) {
     const pressure = time_s ? ["pressure_difference_Pa", "pressure difference"] : ["capillary_pressure_Pa", "capillary pressure"];
     if (Number.isFinite(run.pressure[row])) found.push([...pressure, run.pressure[row], `${shortNumber(run.pressure[row])} Pa`]);
     if (Number.isFinite(meniscus_pressure_Pa[row])) {
-        found.push(["meniscus_pressure_Pa", "of this meniscus", meniscus_pressure_Pa[row], `${shortNumber(meniscus_pressure_Pa[row])} Pa`]);
+        found.push(["meniscus_pressure_Pa", "at this meniscus", meniscus_pressure_Pa[row], `${shortNumber(meniscus_pressure_Pa[row])} Pa`]);
     }
     found.push(["saturation", "wetting saturation", saturation[row], saturation[row].toFixed(4)]);
     if (film_saturation) found.push(["film_saturation", "of this in films", film_saturation[row], film_saturation[row].toFixed(4)]);
@@ -191,8 +192,7 @@ function setAlong(along) {
 
 function play(on) {
     const button = element("play");
-    button.textContent = on ? "⏸" : "▶";
-    button.setAttribute("aria-label", on ? "pause" : "play");
+    button.textContent = on ? "Pause" : "Play";
     state.playing = on;
     if (!on) return;
     // All positions in 20 seconds, at least two a second.
@@ -216,8 +216,10 @@ function showLegend() {
     showLegend.stage = stage;
     const [invading, other] = stage.wetting_invades ? ["wetting", "non-wetting"] : ["non-wetting", "wetting"];
     const key = phase => phase.replace("-", "_"), { colors } = DATA;
-    const entries = [[colors[key(other)], other], [colors[`${key(other)}_trapped`], `${other}, trapped`]];
-    if (run.stages.length > 1 && stage !== run.stages[0]) entries.push([colors[`${key(invading)}_before`], `${invading} before`]);
+    const films = run.films && !stage.wetting_invades ? `${other} and films` : other;
+    const entries = [[colors[key(other)], films], [colors[`${key(other)}_trapped`], `${other}, trapped`]];
+    const before = [stage !== run.stages[0] && `${invading} before`, run.films && stage.wetting_invades && "films"].filter(Boolean);
+    if (before.length > 0) entries.push([colors[`${key(invading)}_before`], before.join(" and ")]);
     entries.push([["var(--solid)"], "solid"], [colors.meniscus, "interfaces, at throats"], [colors.mark, "throats"]);
     const bar = `linear-gradient(to right, ${colors[`${key(invading)}_in_order`].join(", ")})`;
     const order = `<span class="bar"><span>${invading}, displaced share at invasion: 0</span><i style="background:${bar}"></i><span>${shortNumber(stage.largest)}</span></span>`;
@@ -302,13 +304,26 @@ function fill(select, names) {
     select.parentElement.hidden = names.length < 2;
 }
 
+/** Gives each half cycle of all runs the same range of colors. */
+function shareColors() {
+    const most = k => Math.max(...RUNS.map(run => run.stages[k]?.largest ?? 0));
+    RUNS.forEach(run => run.stages.forEach((stage, k) => { stage.largest = most(k); }));
+}
+
 function begin() {
     const frame = element("maps");
+    shareColors();
     RUNS.forEach((run, k) => {
         const part = document.createElement("section");
         part.innerHTML = "<p class=\"about\"></p><div class=\"map\" role=\"img\"></div><div class=\"status\"></div>";
         const [about, map, status] = part.children;
-        about.textContent = (RUNS.length > 1 ? `${run.title}: ` : "") + aboutText(run, DATA.runs[k]);
+        about.textContent = aboutText(run, DATA.runs[k]);
+        if (RUNS.length > 1) {
+            const name = document.createElement("b");
+            name.textContent = `${run.title}: `;
+            name.style.color = `var(${["--one", "--other"][k]})`;
+            about.prepend(name);
+        }
         frame.append(part);
         if (RUNS.length === 1) element("side").prepend(status);
         maps.push(new ChipMap(map, run, DATA.colors));
