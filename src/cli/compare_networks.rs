@@ -4,13 +4,13 @@ use std::path::Path;
 
 use super::compare::CompareArguments;
 use super::exit::{DONE, EXPECTATION_FAILED, Failure, USAGE};
+use super::interrupt;
 use super::output::{readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::{built, ending, failure, new_folder};
 use super::threads::pool;
-use super::interrupt;
-use crate::run::compare::networks::{RUNS, mode_in, write};
 use crate::run::compare::CompareError;
+use crate::run::compare::networks::{RUNS, mode_in, write};
 use crate::run::execute::{Finished, Job, Mode, execute};
 use crate::run::folder;
 use crate::run::source::Source;

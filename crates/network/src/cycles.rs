@@ -11,9 +11,9 @@ use super::graph::{Network, Pores};
 pub(crate) use super::half_cycle::HalfCycle;
 use super::moment::Moment;
 use super::region::Counted;
-use meniscus_core::playback::{Change, KeptFilm};
 pub use meniscus_case::FluidPhase;
 use meniscus_case::network::FilmModel;
+use meniscus_core::playback::{Change, KeptFilm};
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]

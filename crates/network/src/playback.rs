@@ -9,9 +9,7 @@ use super::pictures::process_name;
 use super::tables::{self, numbers_of_throats};
 use meniscus_case::FluidPhase;
 use meniscus_core::diagram::Frame;
-use meniscus_core::playback::{
-    Change, Edge, Holding, KeptFilm, Passage, PlayedArea, Playback, PlayedFilms, Stage,
-};
+use meniscus_core::playback::{Change, Edge, Holding, KeptFilm, Passage, Playback, PlayedArea, PlayedFilms, Stage};
 use meniscus_core::table::Table;
 use meniscus_geometry::curve::Curve;
 
@@ -152,7 +150,13 @@ pub(crate) fn in_time(model: &DynamicModel) -> Playback {
     let reached = dynamic.breakthrough().map(|it| dynamic.history().partition_point(|event| event.time <= it.time));
     Playback {
         events: with(measures::events(model), OF_EVENTS),
-        stages: vec![Stage { name: model.invading.process().to_owned(), first: 0, wetting_invades, open, breakthrough: reached }],
+        stages: vec![Stage {
+            name: model.invading.process().to_owned(),
+            first: 0,
+            wetting_invades,
+            open,
+            breakthrough: reached,
+        }],
         changes: dynamic.changes(),
         ..drawing(&model.quasi_static, dynamic.displacement())
     }

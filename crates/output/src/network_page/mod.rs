@@ -63,3 +63,6 @@ fn filled(frame: &str, slot: impl Fn(&str) -> String) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests;

@@ -263,6 +263,12 @@ function watch(map, index) {
         pointers.set(event.pointerId, now);
     });
     for (const end of ["pointerup", "pointercancel", "pointerleave"]) target.addEventListener(end, event => pointers.delete(event.pointerId));
+    target.addEventListener("pointerleave", event => {
+        if (event.pointerType !== "mouse") return;
+        map.hovered = shown = null;
+        map.paintMarks();
+        showFound(index, null);
+    });
     target.addEventListener("wheel", event => {
         event.preventDefault();
         map.zoomBy(Math.exp(-0.002 * event.deltaY), ...place(event));
