@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::compare_networks::{self, Runs};
 use super::exit::{DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::new_folder;
 use super::threads::pool;
-use super::{compare_networks, interrupt, source};
+use super::{interrupt, source};
 use crate::run::compare::{
     CompareError, Comparison, DIRECT_RUN, Of, PAGE, Pair, Side, Task, compare as run_both, write,
 };
@@ -43,7 +44,9 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
     if [&network, &direct].iter().all(|source| matches!(source.case.model, Model::Network(_))) {
-        return compare_networks::compare(&[network, direct], arguments);
+        let CompareArguments { out, resume, threads, .. } = arguments;
+        let runs = Runs { out: out.as_deref(), resume: *resume, threads: *threads };
+        return compare_networks::compare(&[network, direct], &runs);
     }
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
     let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), mode);

@@ -1,8 +1,8 @@
 //! `meniscus compare` of two networks: both displacements on one page, with one slider.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 
-use super::compare::CompareArguments;
 use super::exit::{DONE, EXPECTATION_FAILED, Failure, USAGE};
 use super::interrupt;
 use super::output::{readable, say, tell};
@@ -17,10 +17,20 @@ use crate::run::source::Source;
 use meniscus_core::input::Problem;
 use meniscus_core::playback::Playback;
 
+/// Where both run, and how.
+pub(super) struct Runs<'a> {
+    /// The output folder, if given.
+    pub(super) out: Option<&'a Path>,
+    /// Whether an interrupted comparison continues.
+    pub(super) resume: bool,
+    /// Number of threads; all cores if not given.
+    pub(super) threads: Option<NonZeroUsize>,
+}
+
 /// Runs both networks and writes their page.
-pub(super) fn compare(both: &[Source; 2], arguments: &CompareArguments) -> Result<u8, Failure> {
+pub(super) fn compare(both: &[Source; 2], arguments: &Runs<'_>) -> Result<u8, Failure> {
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
-    let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", both[1].name), mode);
+    let out = new_folder(arguments.out, &format!("{}-compare", both[1].name), mode);
     let claim = if arguments.resume { folder::reopen(&out, &out.join(RUNS[0])) } else { folder::create(&out) };
     let _claim = claim.map_err(Failure::with(USAGE))?;
     tell(format_args!("{} | {} -> {}", both[0].case.title, both[1].case.title, out.display()));
@@ -46,7 +56,7 @@ pub(super) fn compare(both: &[Source; 2], arguments: &CompareArguments) -> Resul
 }
 
 /// Runs one of both in a folder of its own.
-fn run(source: &Source, folder: &Path, arguments: &CompareArguments) -> Result<(Finished, Playback), Failure> {
+fn run(source: &Source, folder: &Path, arguments: &Runs<'_>) -> Result<(Finished, Playback), Failure> {
     let mode = mode_in(folder, arguments.resume);
     pool(arguments.threads)?.install(|| {
         let mut solver = built(source, mode)?;

@@ -2,8 +2,6 @@
 
 use super::cycles::{Cycles, Entry};
 use super::displacement::{Displacement, Element, Phase, edges as edges_of};
-use super::dynamic::measures;
-use super::dynamic::model::DynamicModel;
 use super::model::{Configuration, Model};
 use super::pictures::process_name;
 use super::tables::{self, numbers_of_throats};
@@ -27,6 +25,11 @@ const OF_EVENTS: &[&str] = &[
     "film_saturation",
 ];
 const OF_CURVE: &[&str] = &["half_cycle", "capillary_pressure_Pa", "saturation"];
+
+/// The columns of a table of events that are played.
+pub(crate) fn events(table: Table) -> Table {
+    with(table, OF_EVENTS)
+}
 
 fn with(mut table: Table, columns: &[&str]) -> Table {
     table.columns.retain(|column| columns.contains(&column.name));
@@ -133,7 +136,7 @@ impl Cycles {
 /// A quasi-static displacement.
 pub(crate) fn playback(model: &Model, cycles: &Cycles) -> Playback {
     Playback {
-        events: with(tables::events(&model.config, cycles), OF_EVENTS),
+        events: events(tables::events(&model.config, cycles)),
         curve: tables::capillary_pressure(&model.config, cycles).map(|curve| with(curve, OF_CURVE)),
         stages: cycles.stages(),
         changes: cycles.record.changes.clone(),
@@ -142,28 +145,8 @@ pub(crate) fn playback(model: &Model, cycles: &Cycles) -> Playback {
     }
 }
 
-/// A displacement in time: an element counts as filled from the event on by which the invading phase entered it.
-pub(crate) fn in_time(model: &DynamicModel) -> Playback {
-    let (dynamic, config) = (&model.dynamic, &model.quasi_static.config);
-    let wetting_invades = model.invading == FluidPhase::Wetting;
-    let open = config.sides.map(super::pictures::through);
-    let reached = dynamic.breakthrough().map(|it| dynamic.history().partition_point(|event| event.time <= it.time));
-    Playback {
-        events: with(measures::events(model), OF_EVENTS),
-        stages: vec![Stage {
-            name: model.invading.process().to_owned(),
-            first: 0,
-            wetting_invades,
-            open,
-            breakthrough: reached,
-        }],
-        changes: dynamic.changes(),
-        ..drawing(&model.quasi_static, dynamic.displacement())
-    }
-}
-
 /// The static part.
-fn drawing(model: &Model, displacement: &Displacement) -> Playback {
+pub(crate) fn drawing(model: &Model, displacement: &Displacement) -> Playback {
     let config = &model.config;
     let number_of = numbers_of_throats(config);
     let elements = displacement.elements().iter().enumerate();

@@ -2,15 +2,15 @@
 
 use std::time::Instant;
 
-use super::measures;
 use super::model::DynamicModel;
 use super::{Breakthrough, Drive, Dynamic, StepEnd};
+use super::{measures, playback};
 use crate::cycles::FluidPhase;
 use crate::displacement::{Element, EventKind};
 use crate::laplacian::FlowError;
 use crate::model::Model;
 use crate::solver::{NetworkSolver, results_with};
-use crate::{layers, pictures, playback, summary, warnings};
+use crate::{layers, pictures, summary, warnings};
 use meniscus_case::network::Stop;
 use meniscus_core::diagram::{Diagram, RegionMap};
 use meniscus_core::math::Vec2;
