@@ -1,7 +1,7 @@
 //! A displacement as data to play, from event to event.
 
 use super::cycles::{Cycles, Entry};
-use super::displacement::{Displacement, Element, Phase, edges as edges_of};
+use super::displacement::{Displacement, Element, Phase, RimCurve, edges as edges_of};
 use super::model::{Configuration, Model};
 use super::pictures::process_name;
 use super::tables::{self, numbers_of_throats};
@@ -184,7 +184,7 @@ fn frame(config: &Configuration) -> Frame {
 }
 
 /// The boundary of an element: its curves, or where these do not close its outline without walls.
-fn rim(displacement: &Displacement, index: usize) -> Vec<(Curve, Option<(usize, u32)>)> {
+fn rim(displacement: &Displacement, index: usize) -> Vec<RimCurve> {
     let outline = &displacement.elements()[index].outline;
     displacement.rim(index).unwrap_or_else(|| edges_of(outline).map(|(a, b)| (Curve::Segment { a, b }, None)).collect())
 }

@@ -42,6 +42,7 @@ pub(crate) use self::outflow::Outflow;
 pub(crate) use self::outline::{centroid, contains, edges};
 pub(crate) use self::progress::Division;
 pub use self::progress::{Displacement, Element, Phase};
+pub(crate) use self::rims::RimCurve;
 pub use self::sequence::Event;
 pub(crate) use self::static_menisci::{Beginning, StaticMeniscus};
 use super::graph::Region;

@@ -16,9 +16,12 @@ pub(crate) struct Joint {
     pub(crate) throat: Option<usize>,
 }
 
+/// A curve of a boundary, with its number among the pieces of wall and the shape of it, if it is one.
+pub(crate) type RimCurve = (Curve, Option<(usize, u32)>);
+
 impl Displacement {
-    /// The boundary of an element, each curve with its number among the pieces of wall and the shape of it, if it is one; `None` if it does not close, as around a periodic domain.
-    pub(crate) fn rim(&self, element: usize) -> Option<Vec<(Curve, Option<(usize, u32)>)>> {
+    /// The boundary of an element; `None` if it does not close, as around a periodic domain.
+    pub(crate) fn rim(&self, element: usize) -> Option<Vec<RimCurve>> {
         let part = &self.mesh.loops[element];
         if part.has_seam || !part.apart.is_empty() {
             return None;
