@@ -50,8 +50,9 @@ impl Dynamic {
     pub(crate) fn changes(&self) -> Vec<Change> {
         let count = self.displacement.elements().len();
         let is_held = |element: usize| self.share(element) > 0.5;
-        let row = |element: usize| self.state.invasions[element].map_or(0, |invasion| invasion.sequence);
-        let entered: Vec<Option<usize>> = (0..count).map(|e| is_held(e).then(|| row(e))).collect();
+        // Into what was not entered by an event, a meniscus may bulge.
+        let row = |e: usize| self.state.invasions[e].filter(|_| is_held(e)).map(|invasion| invasion.sequence);
+        let entered: Vec<Option<usize>> = (0..count).map(row).collect();
         let mut changes: Vec<Change> = Vec::new();
         let change = |row: usize, area: usize, holding| Change { row: row as u32, area: area as u32, holding };
         changes.extend((0..count).filter_map(|e| Some(change(entered[e]?, e, Holding::Invaded))));

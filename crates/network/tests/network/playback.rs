@@ -1,6 +1,7 @@
 //! A displacement as it is played: the events of the table, and at the end what the picture shows.
 
 use crate::cases::{loaded, named, to_the_end};
+use meniscus::run::setup;
 use meniscus_core::diagram::{RegionMap, Tone};
 use meniscus_core::playback::{Holding, Playback};
 use meniscus_core::solver::Solver;
@@ -56,6 +57,8 @@ fn check_of_areas(playback: &Playback, map: &RegionMap, shares: Option<&[f64]>) 
             (Holding::Defending, Tone::Class(0))
             | (Holding::Trapped, Tone::Class(1))
             | (Holding::Before, Tone::Class(2)) => {}
+            // Menisci bulge into more than half of what no event has entered.
+            (Holding::Defending | Holding::Trapped, Tone::Class(2)) if shares.is_none() => {}
             (holding, tone) => panic!("area {index}: {holding:?} and {tone:?}"),
         }
     }
@@ -80,7 +83,10 @@ fn the_last_event_leaves_what_the_picture_shows() {
 #[test]
 fn a_displacement_in_time_ends_as_the_picture_shows() {
     for name in ["dynamic", "spontaneous-imbibition"] {
-        let solver = to_the_end(&loaded(&named(name), &[]));
+        let mut solver = setup::build(&loaded(&named(name), &[]).case).unwrap();
+        while !solver.is_done() {
+            solver.step(solver.time() + 0.01).unwrap();
+        }
         let playback = solver.playback().unwrap();
         check_of_events(&playback, &events(solver.as_ref()));
         check_of_areas(&playback, &solver.region_map().unwrap(), None);
