@@ -74,13 +74,19 @@ fn run(source: &Source, folder: &Path, arguments: &Runs<'_>) -> Result<(Finished
     })
 }
 
+/// A value with four digits, or a count.
+fn shown(value: f64) -> String {
+    if value.fract() == 0.0 { format!("{value}") } else { readable(value) }
+}
+
 /// The measures that both have.
 fn summary(one: &Finished, other: &Finished) {
     say(format_args!("  {:<34} {:<16} {}", "", RUNS[0], RUNS[1]));
     for (name, reading) in &one.report.measures {
         let second = other.report.measures.get(name).and_then(|it| it.value);
         if let (Some(first), Some(second)) = (reading.value, second) {
-            say(format_args!("  {name:<34} {:<16} {} {}", readable(first), readable(second), reading.unit));
+            let [first, second] = [first, second].map(shown);
+            say(format_args!("{}", format!("  {name:<34} {first:<16} {second} {}", reading.unit).trim_end()));
         }
     }
 }

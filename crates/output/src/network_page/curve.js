@@ -14,7 +14,7 @@ function choicesOf(run) {
     const { time_s, saturation } = run.events, pressure = run.pressure;
     const over = (x, y, labels) => ({ x, y, labels });
     const wetting = "saturation of the wetting phase";
-    const name = time_s ? "pressure difference, inlet less outlet (Pa)" : "capillary pressure p_n − p_w (Pa)";
+    const name = time_s ? "pressure difference (Pa)" : "capillary pressure p_n − p_w (Pa)";
     if (time_s) {
         return { "pressure over saturation": over(saturation, pressure, [wetting, name]),
             "pressure over time": over(time_s, pressure, ["time (s)", name]),
