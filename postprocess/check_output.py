@@ -7,8 +7,10 @@ Usage: check_output.py DIR ...
 """
 
 import argparse
+import base64
 import functools
 import itertools
+import json
 import sys
 from pathlib import Path
 
@@ -19,6 +21,9 @@ import results
 
 # Columns of the series that every record must have; the others are NaN where the quantity does not exist.
 ALWAYS_FINITE = ["time_s", "displaced_pore_volumes", "step"]
+
+# More pores than a page shows.
+MOST_PORES = 200_000
 
 
 def measure(path: str | Path) -> dict:
@@ -59,7 +64,23 @@ def measure_network(directory: Path, problems: list[str]) -> dict:
         "status": check_report(directory, problems),
     }
     problems.extend(f"{name} is missing" for name in results.NETWORK_FILES if not (directory / name).is_file())
+    if (directory / "events.csv").is_file():
+        check_page(directory, problems)
     return found
+
+
+def check_page(directory: Path, problems: list[str]) -> None:
+    """The page of a displacement has a row of data for each event; more than `MOST_PORES` have none."""
+    page, events = directory / "network.html", directory / "events.csv"
+    if not page.is_file():
+        if sum(1 for _ in (directory / "pores.csv").open()) - 1 <= MOST_PORES:
+            problems.append("network.html is missing")
+        return
+    text = page.read_text(encoding="utf-8").partition('id="data">')[2].partition("</script>")[0]
+    saturations = json.loads(text)["runs"][0]["events"]["saturation"]
+    rows, wanted = len(base64.b64decode(saturations["base64"])) // np.dtype(np.float32).itemsize, sum(1 for _ in events.open()) - 1
+    if rows != wanted:
+        problems.append(f"network.html: {rows} events, {wanted} in events.csv")
 
 
 def check_regions(data, place: str, problems: list[str]) -> None:

@@ -5,8 +5,9 @@ mod support;
 use std::path::Path;
 use std::process::Command;
 
-use support::program::{folder_with_small_case, meniscus};
-use support::python::{interpreter, root, run};
+use support::browser::browser;
+use support::program::{assert_code, folder_with_small_case, meniscus};
+use support::python::{browser_interpreter, interpreter, root, run};
 
 fn script(name: &str) -> Command {
     let mut command = Command::new(interpreter());
@@ -164,4 +165,38 @@ fn a_fresh_drainage_by_bursts_is_the_invasion_of_openpnm() {
     let printed = compared("network_to_openpnm.py", folder_with_drainage().path());
     let same = printed.lines().find_map(|line| line.strip_prefix("same invaded pores"));
     assert_eq!(same.map(str::trim), Some("yes"), "{printed}");
+}
+
+/// Plays the page of a run in a browser.
+fn played(folder: &Path, more: &[&str]) {
+    let mut command = Command::new(browser_interpreter());
+    command.arg(root().join("postprocess/tests/browser/play_page.py")).arg(browser()).arg(folder).args(more);
+    println!("{}", run(&mut command, "the page must play"));
+}
+
+#[test]
+fn the_page_of_a_network_plays_in_a_browser() {
+    let folder = tempfile::tempdir().unwrap();
+    for (out, case) in [("drainage", "chip"), ("films", "films"), ("in-time", "dynamic")] {
+        let case = root().join(format!("cases/network/{case}.toml")).display().to_string();
+        assert_code(&meniscus(folder.path(), &["run", &case, "--set", "expect=[]", "--out", out]), 0);
+        played(&folder.path().join(out), &[]);
+    }
+}
+
+#[test]
+fn the_page_of_five_thousand_pores_is_light_and_keeps_up_with_the_slider() {
+    let folder = tempfile::tempdir().unwrap();
+    let pack =
+        ["new", "pack.toml", "--pack", "random", "--porosity", "0.6", "--radius-deviation", "0.2", "--seed", "3"];
+    assert_code(&meniscus(folder.path(), &[&pack[..], &["--size", "0.0198,0.0198"]].concat()), 0);
+    let network = ["network", "pack.toml", "--inlet", "left", "--outlet", "right", "--tension", "0.07", "--out", "out"];
+    assert_code(&meniscus(folder.path(), &network), 0);
+    let out = folder.path().join("out");
+    let size = out.join("network.html").metadata().unwrap().len();
+    assert!(size < 2_000_000, "{size} bytes");
+    let pores = std::fs::read_to_string(out.join("pores.csv")).unwrap().lines().count() - 1;
+    assert!(pores > 5000, "{pores} pores");
+    println!("{pores} pores in {size} bytes");
+    played(&out, &["--speed"]);
 }

@@ -1,9 +1,10 @@
-//! `meniscus compare`: a network and a direct simulation of one geometry, side by side.
+//! `meniscus compare`: a network and a direct simulation of one geometry, or two networks, side by side.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
+use super::compare_networks::{self, Runs};
 use super::exit::{DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
@@ -15,13 +16,14 @@ use crate::run::compare::{
 };
 use crate::run::execute::Mode;
 use crate::run::folder;
+use meniscus_case::Model;
 
 /// `compare`.
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
     /// Case file with [network] and an inlet
     pub(crate) network: PathBuf,
-    /// Case file with [sph] and two fluids, of the same geometry
+    /// Case file with [sph] and two fluids, of the same geometry; or another one with [network] and an inlet
     pub(crate) direct: PathBuf,
     /// States of the direct simulation that are compared
     #[arg(long, value_name = "N", default_value = "100")]
@@ -41,6 +43,11 @@ pub(crate) struct CompareArguments {
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
+    if [&network, &direct].iter().all(|source| matches!(source.case.model, Model::Network(_))) {
+        let CompareArguments { out, resume, threads, .. } = arguments;
+        let runs = Runs { out: out.as_deref(), resume: *resume, threads: *threads };
+        return compare_networks::compare(&[network, direct], &runs);
+    }
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
     let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), mode);
     let claim = if arguments.resume { folder::reopen(&out, &out.join(DIRECT_RUN)) } else { folder::create(&out) };

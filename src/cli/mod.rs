@@ -5,6 +5,7 @@
 pub(crate) mod arguments;
 mod check;
 mod compare;
+mod compare_networks;
 mod couple;
 mod entry;
 pub(crate) mod exit;

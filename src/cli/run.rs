@@ -101,7 +101,7 @@ fn print_warnings(case: &Case, solver: &dyn Solver) {
     }
 }
 
-fn failure(error: &RunError) -> Failure {
+pub(super) fn failure(error: &RunError) -> Failure {
     let code = match error {
         RunError::Folder(_) | RunError::File(_) | RunError::State(_) => USAGE,
         RunError::Case(_) => BUG,
@@ -109,7 +109,7 @@ fn failure(error: &RunError) -> Failure {
     Failure::new(code, error)
 }
 
-fn ending(finished: &Finished) -> Result<u8, Failure> {
+pub(super) fn ending(finished: &Finished) -> Result<u8, Failure> {
     match finished.report.status {
         Status::Done => Ok(DONE),
         Status::Interrupted => Ok(INTERRUPTED),

@@ -28,9 +28,12 @@ pub(crate) fn summary(finished: &Finished) -> String {
     lines.extend(numbers(report));
     lines.extend(report.depth.iter().map(|depth| row("depth", depth)));
     lines.extend(report.warnings.iter().map(|warning| row("WARNING", warning)));
+    lines.extend([row("ParaView", &show(frames)), row("picture", &picture)]);
+    lines.extend(finished.page.iter().map(|page| match page {
+        Ok(path) => row("page", &path.display().to_string()),
+        Err(too_many) => row("page", &format!("none: {too_many}")),
+    }));
     lines.extend([
-        row("ParaView", &show(frames)),
-        row("picture", &picture),
         row("series", &show("series.csv")),
         row("report", &show("report.json")),
         row("wall time", &duration(report.wall_time_s.total)),

@@ -22,6 +22,7 @@ use meniscus_core::snapshot::Layer;
 use meniscus_core::solver::{Clock, Measure, Results, Series, Solver, StateError};
 use meniscus_core::table::Document;
 use meniscus_output::checksum::fnv1a;
+use meniscus_output::network_page::{self, TooMany};
 use meniscus_output::picture::{PictureError, picture, region_map_picture};
 use meniscus_output::{FileError, atomic, diagram, table, vtk};
 
@@ -75,6 +76,8 @@ pub struct Finished {
     pub folder: PathBuf,
     /// The picture, or why there is none.
     pub picture: Result<PathBuf, PictureError>,
+    /// The page to play the displacement, of the runs that have one; how many pores it would have where they are too many.
+    pub page: Option<Result<PathBuf, TooMany>>,
     /// Whether a resumed run was at its end already, so that nothing was done.
     pub was_at_end: bool,
 }
@@ -125,7 +128,8 @@ pub fn execute(
     let picture = draw(job, solver)?;
     write_results(job, &solver.results())?;
     draw_diagrams(job, solver)?;
-    Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
+    let page = write_page(job, solver)?;
+    Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, page, was_at_end })
 }
 
 /// Runs a case with its solver, which is at time zero, to the same bits without files: its series and its report stay in memory, and its final state in its
@@ -258,6 +262,16 @@ fn draw_diagrams(job: &Job<'_>, solver: &dyn Solver) -> Result<(), FileError> {
         }
     }
     Ok(())
+}
+
+/// Writes the page on which the displacement is played, if the solver has one.
+fn write_page(job: &Job<'_>, solver: &dyn Solver) -> Result<Option<Result<PathBuf, TooMany>>, FileError> {
+    let Some(playback) = solver.playback() else { return Ok(None) };
+    let path = job.folder.join(network_page::NAME);
+    match network_page::page(&job.case.title, &[(&job.case.title, &playback)]) {
+        Ok(html) => atomic::write(&path, html.as_bytes()).map(|()| Some(Ok(path))),
+        Err(too_many) => Ok(Some(Err(too_many))),
+    }
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use super::verdict::{Judgment, Verdict, digits};
 use super::wording::Wording;
 use crate::run::compare::PAGE;
 use meniscus_output::html::{self, escaped};
+use meniscus_output::network_page;
 
 /// Content of the page.
 #[derive(Debug)]
@@ -36,6 +37,8 @@ pub(crate) struct Content<'a> {
     pub(crate) pressures: Option<&'a str>,
     /// File names of diagrams, a list per run.
     pub(crate) diagrams: &'a [Vec<String>],
+    /// For each run, whether its folder has a page on which its displacement is played.
+    pub(crate) pages: &'a [bool],
     /// Capillary pressure over saturation of both models as SVG, one per complete run that was compared with a network.
     pub(crate) comparisons: &'a [(&'a RunResult, String)],
     /// The statistics of the samples, if there are any.
@@ -82,8 +85,10 @@ pub(crate) fn page(content: &Content<'_>) -> String {
     if content.study.report.pictures && content.study.compare.is_some() {
         push_comparisons(&mut html, content.comparisons, content.wording);
     } else if content.study.report.pictures {
-        push_pictures(&mut html, content.results, content.wording);
+        push_pictures(&mut html, content);
         push_diagrams(&mut html, content.results, content.diagrams);
+    } else {
+        push_pages(&mut html, content);
     }
     html::page(&content.study.title, &html)
 }
@@ -150,12 +155,36 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
     html.push_str(&Table { heads, rows: convergences.iter().map(row).collect() }.html());
 }
 
-fn push_pictures(html: &mut String, results: &[RunResult], wording: &Wording) {
+fn push_pictures(html: &mut String, content: &Content<'_>) {
     html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
-    for result in results.iter().filter(|result| result.state.report().is_some()) {
-        *html += &html::figure(&format!("runs/{}/picture.png", escaped(&result.run.name)), &caption(result, wording));
+    for (result, &has_page) in content.results.iter().zip(content.pages) {
+        if result.state.report().is_none() {
+            continue;
+        }
+        let (name, caption) = (escaped(&result.run.name), caption(result, content.wording));
+        let play = if has_page { format!(": {}", link(&name, "played")) } else { String::new() };
+        *html += &html::figure_with_more(&format!("runs/{name}/picture.png"), &caption, &play);
     }
     html.push_str("</div>\n");
+}
+
+/// The pages of runs without pictures.
+fn push_pages(html: &mut String, content: &Content<'_>) {
+    let with_page = || content.results.iter().zip(content.pages).filter(|(_, has_page)| **has_page);
+    if with_page().next().is_none() {
+        return;
+    }
+    html.push_str("<h2>Displacements, event by event</h2>\n<ul>\n");
+    for (result, _) in with_page() {
+        let caption = caption(result, content.wording);
+        let _ = writeln!(html, "<li>{}</li>", link(&escaped(&result.run.name), &caption));
+    }
+    html.push_str("</ul>\n");
+}
+
+/// A link to the page of a run; both are escaped.
+fn link(name: &str, text: &str) -> String {
+    format!("<a href=\"runs/{name}/{}\">{text}</a>", network_page::NAME)
 }
 
 /// The parameters of a run with their values.

@@ -24,7 +24,7 @@ use crate::run::compare::CURVES;
 use crate::run::pressure_curves::{self, Overlaid};
 use meniscus_core::input::nearest;
 use meniscus_output::diagram::DiagramError;
-use meniscus_output::{FileError, atomic};
+use meniscus_output::{FileError, atomic, network_page};
 
 /// Why a report cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -66,6 +66,11 @@ fn diagrams_of(folder: &Path, state: &RunState) -> Vec<String> {
     found.retain(|_| state.report().is_some());
     found.sort();
     found
+}
+
+/// Whether a complete run in a folder has a page on which its displacement is played.
+fn has_page(folder: &Path, state: &RunState) -> bool {
+    state.report().is_some() && folder.join(network_page::NAME).is_file()
 }
 
 /// The curves of each complete comparison; those without a pressure have none.
@@ -162,6 +167,8 @@ pub(crate) fn report_of(
     }
     let diagrams: Vec<Vec<String>> =
         results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.state)).collect();
+    let pages: Vec<bool> =
+        results.iter().map(|result| has_page(&folder.run(&result.run.name), &result.state)).collect();
     let comparisons = comparisons(study, &results, folder);
     let pressures = pressures(study, &results, folder, &wording)?;
     if let Some(text) = &pressures {
@@ -171,6 +178,7 @@ pub(crate) fn report_of(
         comparisons: &comparisons,
         pressures: pressures.as_deref(),
         diagrams: &diagrams,
+        pages: &pages,
         study,
         results: &results,
         table: &table,

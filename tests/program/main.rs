@@ -15,4 +15,5 @@ mod faults;
 mod marks;
 mod mirrored;
 mod movies;
+mod network_page;
 mod pages;

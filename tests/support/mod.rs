@@ -2,6 +2,7 @@
 #![allow(dead_code, unused_imports, reason = "each test program uses its own part")]
 
 pub mod boxes;
+pub mod browser;
 pub mod cloud;
 pub mod dice;
 pub mod files;

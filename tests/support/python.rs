@@ -32,6 +32,12 @@ pub fn peers_interpreter() -> PathBuf {
     environment("peers-venv", &[("benches/peers/requirements.txt", &[])])
 }
 
+/// The interpreter of an environment with what plays pages in a browser, in `target/browser-venv`.
+#[allow(dead_code, reason = "each test binary has its own copy of this module")]
+pub fn browser_interpreter() -> PathBuf {
+    environment("browser-venv", &[("postprocess/tests/browser/requirements.txt", &[])])
+}
+
 /// [`interpreter`] with the package `meniscus`: built by `pip install .` from the present source, with the library that these tests link.
 #[allow(dead_code, reason = "each test binary has its own copy of this module")]
 pub fn package_interpreter() -> PathBuf {

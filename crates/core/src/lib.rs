@@ -8,6 +8,7 @@ pub mod diagram;
 pub mod input;
 pub mod label;
 pub mod math;
+pub mod playback;
 pub mod snapshot;
 pub mod solver;
 pub mod table;

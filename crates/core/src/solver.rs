@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::diagram::{Diagram, RegionMap};
 use crate::math::Vec2;
+use crate::playback::Playback;
 use crate::snapshot::{Layer, Lines, Snapshot};
 use crate::table::{Document, Table};
 
@@ -348,6 +349,11 @@ pub trait Solver {
 
     /// The map of the plane that is the picture of the present state; `None` if its snapshot is.
     fn region_map(&self) -> Option<RegionMap> {
+        None
+    }
+
+    /// The displacement so far, to be played from event to event; `None` if there is none.
+    fn playback(&self) -> Option<Playback> {
         None
     }
 

@@ -13,6 +13,7 @@ use super::moment::Moment;
 use super::region::Counted;
 pub use meniscus_case::FluidPhase;
 use meniscus_case::network::FilmModel;
+use meniscus_core::playback::{Change, KeptFilm};
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,6 +73,11 @@ pub struct Record {
     pub(crate) curve: Vec<CurvePoint>,
     /// The moment after first breakthrough.
     breakthrough: Option<Arc<Moment>>,
+    /// What elements came to hold.
+    pub(super) changes: Vec<Change>,
+    /// Of the corner films, (p_n - p_w)/σ in 1/m by row and those that keep another one.
+    pub(super) film_curvatures: Vec<f64>,
+    pub(super) kept_films: Vec<KeptFilm>,
 }
 
 /// A displacement in half cycles.
@@ -179,11 +185,13 @@ impl Cycles {
             })
             .collect();
         self.displace(&filled);
+        self.note_beginning(&filled);
         let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
         for element in filled {
             self.record.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         }
         self.update_films();
+        self.note_films();
         let first_saturation = [saturation, self.saturation()];
         // Openings have no entry pressure, so there is none to record.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
@@ -266,6 +274,7 @@ impl Cycles {
         if self.record.breakthrough.is_none() && self.displacement.reached_outlet() {
             self.record.breakthrough = Some(Arc::new(self.moment()));
         }
+        self.note_changes(&event.elements);
         Some(event.kind.name())
     }
 

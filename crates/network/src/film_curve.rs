@@ -69,6 +69,7 @@ impl Cycles {
         self.set_film_curvature(end);
         self.displacement.apply(end);
         self.update_films();
+        self.note_changes(&[]);
         self.record.outcomes[self.half_cycle].last = Some(applied);
     }
 

@@ -148,6 +148,14 @@ enum Film {
 }
 
 impl Film {
+    /// The curvature that they keep in 1/m.
+    fn kept(self) -> Option<f64> {
+        match self {
+            Self::Kept(kept) => Some(kept),
+            Self::Absent | Self::Free => None,
+        }
+    }
+
     /// (p_n - p_w)/σ in 1/m while `applied` is the applied one.
     fn curvature(self, applied: f64) -> Option<f64> {
         match self {
@@ -167,6 +175,8 @@ pub(crate) struct Films {
     shares: Vec<f64>,
     /// (p_n - p_w)/σ in 1/m.
     pub(crate) curvature: f64,
+    /// Element, number of the part, and the curvature that it keeps or NaN, since this was last emptied.
+    pub(super) log: Vec<(usize, usize, f64)>,
 }
 
 impl Films {
@@ -174,7 +184,7 @@ impl Films {
     pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms, shares: Vec<f64>) -> Self {
         let curvature = if invading == FluidPhase::Wetting { f64::INFINITY } else { 0.0 };
         let elements = vec![ElementFilms::default(); displacement.elements().len()];
-        Self { elements, shares, curvature, terms }.with_terms(displacement, None)
+        Self { elements, shares, curvature, terms, log: Vec::new() }.with_terms(displacement, None)
     }
 
     /// The same at the initial pressure of a displacement that continues another one.
@@ -203,13 +213,17 @@ impl Films {
         for (element, films) in self.elements.iter_mut().enumerate() {
             let is_wetting = (displacement.phase(element) == Phase::Invading) == (invading == FluidPhase::Wetting);
             let is_cut_off = displacement.is_cut_off(element);
-            for part in &mut films.parts {
+            for (number, part) in films.parts.iter_mut().enumerate() {
+                let before = part.state.kept();
                 part.state = match part.state {
                     _ if is_wetting => Film::Absent,
                     _ if !is_cut_off && part.ring.is_none_or(|ring| displacement.is_fed(ring)) => Film::Free,
                     Film::Kept(curvature) => Film::Kept(curvature),
                     Film::Absent | Film::Free => Film::Kept(self.curvature),
                 };
+                if part.state.kept() != before {
+                    self.log.push((element, number, part.state.kept().unwrap_or(f64::NAN)));
+                }
             }
         }
     }
@@ -283,6 +297,21 @@ impl Films {
             (width > 0.0).then(|| ((0..=parts as usize).map(point).collect(), width))
         };
         displacement.wall_pieces(element).enumerate().filter_map(strip).collect()
+    }
+}
+
+impl Films {
+    /// The largest radius of films in an element in m, and what gravity adds to the curvature there, in 1/m.
+    pub(super) fn limits(&self, element: usize) -> [f64; 2] {
+        [self.elements[element].largest, self.elements[element].head]
+    }
+
+    /// The width over the radius of the wider film along a wall of an element, and the number of its part.
+    pub(super) fn along(&self, displacement: &Displacement, element: usize, piece: usize, shape: u32) -> (f64, usize) {
+        let ring = displacement.rings().and_then(|rings| rings.of_piece[element][piece]);
+        let [floor, lid] = self.terms.walls[shape as usize].along_plates();
+        let part = self.elements[element].parts.iter().position(|part| part.ring == ring);
+        (floor.max(lid), part.unwrap_or(0))
     }
 }
 

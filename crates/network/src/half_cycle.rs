@@ -5,6 +5,7 @@ use super::films::FilmTerms;
 use super::graph::Network;
 use meniscus_case::FluidPhase;
 use meniscus_case::network::{FilmModel, Stop};
+use meniscus_core::diagram::Through;
 
 /// One drainage or imbibition.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +27,15 @@ pub struct HalfCycle {
 }
 
 impl HalfCycle {
+    /// Direction of flow through each side: in through those that feed the invading phase, which change with the half cycle.
+    pub(super) fn open_sides(&self) -> [Option<Through>; 4] {
+        [0, 1, 2, 3].map(|side| match (self.conditions.inlet[side], self.conditions.outlet[side]) {
+            (true, _) => Some(Through::In),
+            (_, true) => Some(Through::Out),
+            _ => None,
+        })
+    }
+
     /// The same with films that are connected in this way.
     pub(crate) fn with_films(&self, film_model: FilmModel, network: &Network) -> Self {
         let films = self.corners.clone().filter(|_| film_model != FilmModel::None);

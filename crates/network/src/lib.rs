@@ -31,6 +31,7 @@ pub(crate) mod moment;
 mod occupation;
 mod openpnm;
 mod pictures;
+mod playback;
 mod region;
 mod setup_error;
 pub mod state;

@@ -62,7 +62,7 @@ impl Cycles {
             trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),
             invasions: (&self.record.invasions[..]).into(),
             passed: present.map(|entry| entry.throat).collect(),
-            open: self.open_sides(),
+            open: self.half_cycle().open_sides(),
             half_cycle: self.half_cycle_index(),
             films: self.observed_films(),
         }
@@ -76,16 +76,6 @@ impl Cycles {
         let rounded = |pressure: f64| format!("{pressure:.3e}").parse().unwrap_or(pressure);
         let pressure = pressure.map_or(String::new(), |p| format!(", capillary pressure {} Pa", rounded(p)));
         format!("{} {number}: wetting saturation {:.3}{pressure}", half.invading.process(), self.saturation())
-    }
-
-    /// Direction of flow through each side: in through those that feed the invading phase, which change with the half cycle.
-    fn open_sides(&self) -> [Option<Through>; 4] {
-        let conditions = &self.half_cycle().conditions;
-        [0, 1, 2, 3].map(|side| match (conditions.inlet[side], conditions.outlet[side]) {
-            (true, _) => Some(Through::In),
-            (_, true) => Some(Through::Out),
-            _ => None,
-        })
     }
 
     /// All interfaces at the applied pressure, those around trapped regions included, each a polyline in m.

@@ -102,7 +102,7 @@ fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram
 }
 
 /// Primary drainage, imbibition, secondary drainage and so on in a cycle; for a single half cycle, the process alone.
-fn process_name(cycles: &Cycles, index: usize) -> String {
+pub(super) fn process_name(cycles: &Cycles, index: usize) -> String {
     const ORDERS: [&str; 2] = ["primary", "secondary"];
     let (process, number) = (cycles.half_cycles()[index].invading.process(), index / 2);
     match ORDERS.get(number) {

@@ -11,8 +11,9 @@ use super::displacement::EventKind;
 use super::measures::Costly;
 use super::model::{Configuration, Model};
 use super::occupation::Occupation;
-use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
+use super::{flow, layers, measures, openpnm, pictures, playback, state, summary, tables, warnings};
 use meniscus_core::diagram::{Diagram, RegionMap};
+use meniscus_core::playback::Playback;
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
     Clock, Made, Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
@@ -161,12 +162,21 @@ impl Solver for NetworkSolver {
         Some(pictures::region_map(config, displaced))
     }
 
+    fn playback(&self) -> Option<Playback> {
+        self.cycles().map(|cycles| playback::playback(&self.model, cycles))
+    }
+
     fn results(&self) -> Results<'_> {
         let (config, cycles) = (self.config(), self.cycles());
         let mut results = results_with(&self.model, cycles.map(Cycles::occupation));
         if let Some(cycles) = cycles {
             results.tables.push(Box::new(|| tables::events(config, cycles)));
-            results.tables.extend(tables::capillary_pressure(config, cycles));
+            let with_films = config.tension.filter(|_| cycles.has_films());
+            results.tables.extend(
+                with_films.map(|tension| -> Made<'_, Table> {
+                    Box::new(move || tables::capillary_pressure(cycles, tension))
+                }),
+            );
         }
         // Before the others are made, since it takes as much memory as all of them.
         results

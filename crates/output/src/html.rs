@@ -22,8 +22,13 @@ pub fn page(title: &str, body: &str) -> String {
 
 /// A picture that links to itself, with a caption; both are escaped already.
 pub fn figure(picture: &str, caption: &str) -> String {
+    figure_with_more(picture, caption, "")
+}
+
+/// The same with more HTML after the caption.
+pub fn figure_with_more(picture: &str, caption: &str, more: &str) -> String {
     format!(
-        "<figure><a href=\"{picture}\"><img loading=\"lazy\" src=\"{picture}\" alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>\n"
+        "<figure><a href=\"{picture}\"><img loading=\"lazy\" src=\"{picture}\" alt=\"{caption}\"></a><figcaption>{caption}{more}</figcaption></figure>\n"
     )
 }
 

@@ -1,4 +1,4 @@
-//! A network and a direct simulation of one geometry, side by side.
+//! A network and a direct simulation of one geometry, side by side; or two networks (`networks`).
 //!
 //! Both are separate cases. The network proceeds from event to event, the direct simulation from record to record. At equal saturations the invaded elements
 //! are compared, cell by cell on one grid; so are the pressures, the filling order of the elements, and the cost. Only the first half cycle of a network
@@ -10,6 +10,7 @@ mod execute;
 mod files;
 mod measures;
 mod network;
+pub(crate) mod networks;
 mod page;
 mod pair;
 mod picture;

@@ -75,6 +75,8 @@ pub struct Displacement {
     pub(super) partings: Vec<(f64, usize)>,
     is_outlet: Vec<bool>,
     has_reached_outlet: bool,
+    /// Elements trapped since this was last emptied.
+    pub(super) lost: Vec<usize>,
 }
 
 impl Displacement {
@@ -153,6 +155,7 @@ impl Displacement {
             partings,
             is_outlet: outlets,
             has_reached_outlet: false,
+            lost: Vec::new(),
         };
         begun.advance_from_all(&mesh, &first);
         for gate in (0..mesh.gates.len()).filter(|&gate| begun.closed[gate]).collect::<Vec<_>>() {
@@ -208,6 +211,7 @@ impl Displacement {
         for lost in lost {
             self.held[lost] = self.applied;
             self.stop_fronts_into(mesh, lost);
+            self.lost.push(lost);
         }
     }
 

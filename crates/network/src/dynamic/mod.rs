@@ -38,6 +38,7 @@
 //! Left out: snap-off and retreat through a throat (a full element stays full), films, inertia, dynamic contact angles.
 
 mod capillary_curve;
+mod changes;
 mod conductors;
 mod cut_off;
 mod event_functions;
@@ -49,6 +50,7 @@ mod measures;
 mod model;
 mod open;
 mod path;
+mod playback;
 pub(crate) mod solver;
 mod state;
 mod step;

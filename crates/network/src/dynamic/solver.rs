@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use super::measures;
 use super::model::DynamicModel;
 use super::{Breakthrough, Drive, Dynamic, StepEnd};
+use super::{measures, playback};
 use crate::cycles::FluidPhase;
 use crate::displacement::{Division, Element, EventKind};
 use crate::laplacian::FlowError;
@@ -14,6 +14,7 @@ use crate::{layers, pictures, summary, warnings};
 use meniscus_case::network::Stop;
 use meniscus_core::diagram::{Diagram, RegionMap};
 use meniscus_core::math::Vec2;
+use meniscus_core::playback::Playback;
 use meniscus_core::snapshot::{Cloud, Layer, Lines, Snapshot};
 use meniscus_core::solver::{
     Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
@@ -211,6 +212,10 @@ impl Solver for DynamicSolver {
         let (occupation, menisci) = (self.model.occupation(), self.model.dynamic.menisci());
         let displaced = (&occupation, menisci, self.model.progress());
         Some(pictures::region_map(&self.model.quasi_static.config, Some(displaced)))
+    }
+
+    fn playback(&self) -> Option<Playback> {
+        Some(playback::in_time(&self.model))
     }
 
     fn results(&self) -> Results<'_> {

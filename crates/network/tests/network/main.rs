@@ -35,6 +35,7 @@ mod mask_images;
 mod motion;
 mod packs;
 mod permeability;
+mod playback;
 mod pores;
 mod radial;
 mod region;
