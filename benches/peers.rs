@@ -7,6 +7,8 @@
 //!
 //! The other program is lbmpy, with kernels compiled for the processor. PySPH is not here: of its latest version there are sources only,
 //! whose build did not end within half an hour.
+//!
+//! `benches/peers/cost_to_error.py` has what a given error costs, by this program, lbmpy and peclet.
 
 #[path = "../tests/support/python.rs"]
 mod python;
