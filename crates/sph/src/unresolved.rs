@@ -33,10 +33,17 @@ impl ThinParts {
 
 /// The ganglia of a phase, the largest first.
 pub(crate) fn ganglia(flow: &Flow, phase: Phase) -> Vec<Blob> {
-    let p = &flow.state.particles;
-    let (points, volumes) = (&p.position[..p.fluids], &flow.fields.bulk.volume[..p.fluids]);
-    let link = LINK * flow.config.method.spacing;
-    blobs(points, volumes, &is_of(flow, phase), link, flow.config.domain.periods())
+    parts(flow, &flow.fields.bulk.volume[..flow.state.particles.fluids], phase)
+}
+
+/// The ganglia of a phase with the sums of `volumes` over their particles, the largest first.
+fn parts(flow: &Flow, volumes: &[f64], phase: Phase) -> Vec<Blob> {
+    let (view, link) = (&flow.view(), LINK * flow.config.method.spacing);
+    blobs(volumes, &is_of(flow, phase), |a| {
+        // An image is never nearer than its source.
+        let below = flow.neighborhood.pairs.of(a).map(|ab| ab.b).filter(move |&b| b < a);
+        below.filter(move |&b| view.separation(a, b).norm_squared() < link * link)
+    })
 }
 
 /// Length in m of the row of particles of the largest ganglion of the wetting phase that lie within a spacing of a wall; 0 for a drop off the walls.
@@ -45,9 +52,7 @@ pub fn wetted_by_largest_part(flow: &Flow) -> f64 {
     let lengths = (0..p.fluids).map(|a| if flow.fields.bulk.wall_distance[a] < spacing { spacing } else { 0.0 });
     let lengths: Vec<f64> = lengths.collect();
     // Their sum over each ganglion is what it has instead of an area.
-    let of_wetting = is_of(flow, Phase::Wetting);
-    let parts = blobs(&p.position[..p.fluids], &lengths, &of_wetting, LINK * spacing, flow.config.domain.periods());
-    parts.iter().max_by_key(|part| part.count).map_or(0.0, |largest| largest.area)
+    parts(flow, &lengths, Phase::Wetting).iter().max_by_key(|part| part.count).map_or(0.0, |largest| largest.area)
 }
 
 /// Number of ganglia of the wetting phase with enough particles for a curvature.

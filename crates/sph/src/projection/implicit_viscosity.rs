@@ -18,12 +18,13 @@ use crate::pairs::{Pair, Pairs, split_rows};
 use crate::parallel::{GRAIN, change_each, each, largest, values};
 use crate::particles::{Particles, Phase};
 use crate::poisson::{Matrix, Multigrid, weighted_sum};
+use crate::terms::transposed_stress::TransposedStress;
 use crate::view::View;
 use meniscus_case::ViscousTerm;
 use meniscus_core::math::{Mat2, Vec2};
 
 /// Largest relative residual of the change of the velocity.
-pub(super) const RESIDUAL: f64 = 1e-6;
+const RESIDUAL: f64 = 1e-6;
 
 /// Maximum number of iterations; a typical solve takes about ten, with steps a thousand times the explicit limit some hundreds.
 const ITERATIONS: usize = 2000;
@@ -58,19 +59,18 @@ pub(super) struct ViscousMatrix<'a> {
 }
 
 impl View<'_, Fields> {
-    /// The viscous matrix at the present positions.
-    pub(super) fn viscous_matrix(&self) -> ViscousMatrix<'_> {
+    /// The viscous matrix at the present positions, stiffer where the transposed `stress` acts.
+    pub(super) fn viscous_matrix(&self, stress: Option<&TransposedStress>) -> ViscousMatrix<'_> {
         let (pairs, images, fluids, f) =
             (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields.bulk);
         let viscous = self.viscous();
         let has_plates = self.config.method.plates.is_some();
         let is_central = self.config.method.numerics.viscous_term == ViscousTerm::Szewc;
-        let transposed = self.transposed_stress();
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
         let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
         let strength = |a: usize, ab: &Pair| {
             if !is_central {
-                let stiffer = transposed.as_ref().map_or(1.0, |stress| stress.stiffness(a, ab.b));
+                let stiffer = stress.map_or(1.0, |stress| stress.stiffness(a, ab.b));
                 return stiffer * viscous.coupling(a, ab);
             }
             let steepness = ab.grad_w.norm_squared();

@@ -1,6 +1,5 @@
 //! The predictor: all forces except the pressure [Huber2013, Eq. 25].
 
-use super::implicit_viscosity;
 use super::intermediate::{Damped, Predicted};
 use crate::fields::Fields;
 use crate::method::PressureGradient;
@@ -9,6 +8,7 @@ use crate::parallel::{each, largest, values};
 use crate::particles::{Phase, relative_speed};
 use crate::surface_force::SurfaceForce;
 use crate::terms::pressure_gradient;
+use crate::terms::transposed_stress::TransposedStress;
 use crate::time_step::landing;
 use crate::view::View;
 use meniscus_case::ViscousStep;
@@ -27,7 +27,8 @@ impl View<'_, Fields> {
     ) -> Result<Predicted, SolverError> {
         let (particles, fluids, moving) =
             (&self.state.particles, self.state.particles.fluids, self.state.particles.moving());
-        let viscous = self.viscous_acceleration(&self.velocity());
+        let stress = self.transposed_stress();
+        let viscous = self.viscous_acceleration(&self.velocity(), stress.as_ref());
         let is_limited = self.config.method.numerics.viscous_step == ViscousStep::Explicit;
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
         // Walls count: fluid that they drag along has their velocity at the end of the step.
@@ -58,7 +59,7 @@ impl View<'_, Fields> {
             viscous[a] + body + forces + background[a]
         });
         let damped = match viscous_step {
-            ViscousStep::Implicit => self.damp(&mut acceleration, step.dt)?,
+            ViscousStep::Implicit => self.damp(&mut acceleration, step.dt, stress.as_ref())?,
             ViscousStep::Explicit => Damped::default(),
         };
         let mut velocity = particles.velocity.clone();
@@ -103,8 +104,13 @@ impl View<'_, Fields> {
     /// step is longer than the explicit limit.
     ///
     /// The pressure of the previous step is included: forces that it balances cause no motion for viscosity to damp.
-    fn damp(&self, acceleration: &mut [Vec2], dt: f64) -> Result<Damped, SolverError> {
-        let matrix = self.viscous_matrix();
+    fn damp(
+        &self,
+        acceleration: &mut [Vec2],
+        dt: f64,
+        stress: Option<&TransposedStress>,
+    ) -> Result<Damped, SolverError> {
+        let matrix = self.viscous_matrix(stress);
         let excess = matrix.excess(dt);
         // A step that is stable explicitly is as accurate, and needs no solve.
         if excess == 0.0 {
@@ -113,8 +119,8 @@ impl View<'_, Fields> {
         let by_pressure = self.pressure_acceleration(&self.state.particles.pressure);
         let net = values(acceleration.len(), |a| acceleration[a] + by_pressure[a]);
         let (change, found) = matrix.change(&net, dt);
-        if !(found.residual <= implicit_viscosity::RESIDUAL) {
-            return Err(self.not_converged("the viscous step", found, implicit_viscosity::RESIDUAL));
+        if !found.is_reached() {
+            return Err(self.not_converged("the viscous step", found));
         }
         each(acceleration, |a| change[a] / dt - by_pressure[a]);
         Ok(Damped { by_pressure, excess, weight: matrix.weight(dt), iterations: found.iterations })

@@ -25,11 +25,11 @@ impl View<'_, Fields> {
         }
     }
 
-    /// The viscous acceleration of the fluid particles in m/s².
-    pub(super) fn viscous_acceleration(&self, velocity: &Field<Vec2>) -> Vec<Vec2> {
+    /// The viscous acceleration of the fluid particles in m/s², with the transposed `stress` where there is one.
+    pub(super) fn viscous_acceleration(&self, velocity: &Field<Vec2>, stress: Option<&TransposedStress>) -> Vec<Vec2> {
         let f = &self.fields.bulk;
         let mut acceleration = self.friction_by(|a, b| self.velocity_difference(velocity, a, b));
-        if let Some(stress) = self.transposed_stress() {
+        if let Some(stress) = stress {
             let forces = stress.force(velocity, acceleration.len());
             let both = acceleration.iter_mut().zip(forces).enumerate();
             both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
@@ -85,7 +85,8 @@ impl View<'_, Fields> {
 
     /// The viscous force in N per m of depth on the fluid particles that `is_meant` selects, by fluid and walls around them.
     pub(crate) fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
-        let (f, acceleration) = (&self.fields.bulk, self.viscous_acceleration(&self.velocity()));
+        let (f, acceleration) =
+            (&self.fields.bulk, self.viscous_acceleration(&self.velocity(), self.transposed_stress().as_ref()));
         let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
         meant.map(|(a, by)| f.density[a] * f.volume[a] * by).sum()
     }
