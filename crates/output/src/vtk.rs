@@ -1,15 +1,19 @@
-//! Snapshots as VTK XML files: each an unstructured grid (`.vtu`), which meshio reads, too.
+//! Snapshots as VTK XML files, written by vtkio: each an unstructured grid (`.vtu`), which meshio reads, too.
 //!
 //! Particles are vertices, a grid is quadrilaterals, lines are segments, since meshio does not support polylines. Points of the plane get z = 0 and vectors
 //! three components. Arrays are inline, in base 64 and compressed by zlib: the form that every reader supports. LZ4 is faster, but read by VTK, ParaView and
-//! pyvista only. Times are in the `.pvd`, units in `units.json` of the output folder. A file is written array by array: none is in memory as text.
+//! pyvista only. Times are in the `.pvd`, units in `units.json` of the output folder.
 
-mod arrays;
+mod document;
 pub mod read;
 
 use std::io::{self, Write};
 
-use self::arrays::Arrays;
+use vtkio::IOBuffer;
+use vtkio::model::CellType;
+use vtkio::xml::{AttributeData, DataArray};
+
+use self::document::{Arrays, Piece};
 use meniscus_core::math::Vec2;
 use meniscus_core::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
 
@@ -134,14 +138,14 @@ enum Cells<'a> {
 type Numbers<'a> = Box<dyn Iterator<Item = i64> + 'a>;
 
 impl Cells<'_> {
-    /// The number of their kind in VTK, and of the points of each, if all have as many.
-    fn kind(&self) -> (u8, Option<i64>) {
+    /// Their kind in VTK, and the number of the points of each, if all have as many.
+    fn kind(&self) -> (CellType, Option<i64>) {
         match self {
-            Self::Vertices(_) | Self::Consecutive(CellKind::Points, _) => (1, Some(1)),
-            Self::Segments(_) => (3, Some(2)),
-            Self::Consecutive(CellKind::Lines, _) => (3, None),
-            Self::Consecutive(CellKind::Polygons, _) => (7, None),
-            Self::Quadrilaterals(_) => (9, Some(4)),
+            Self::Vertices(_) | Self::Consecutive(CellKind::Points, _) => (CellType::Vertex, Some(1)),
+            Self::Segments(_) => (CellType::Line, Some(2)),
+            Self::Consecutive(CellKind::Lines, _) => (CellType::Line, None),
+            Self::Consecutive(CellKind::Polygons, _) => (CellType::Polygon, None),
+            Self::Quadrilaterals(_) => (CellType::Quad, Some(4)),
         }
     }
 
@@ -183,19 +187,23 @@ impl VtkFile<'_> {
     /// Writes the file.
     ///
     /// # Errors
-    /// Those of the target.
+    /// Those of the library and of the target.
     pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        let mut arrays = Arrays::new(to, self.compression);
-        arrays.begin(self.number_of_points, self.cells.count())?;
-        arrays.group("PointData", self.on_points, field)?;
-        arrays.group("CellData", self.on_cells, field)?;
-        arrays.group("Points", &[&self.points], |arrays, points| vectors(arrays, "Points", points()))?;
-        arrays.group("Cells", &[&self.cells], |arrays, cells| {
-            arrays.array("connectivity", 1, cells.connectivity())?;
-            arrays.array("offsets", 1, cells.offsets())?;
-            arrays.array("types", 1, std::iter::repeat_n(cells.kind().0, cells.count()))
-        })?;
-        arrays.end()
+        let (compression, number_of_cells) = (self.compression, self.cells.count());
+        let types = vec![self.cells.kind().0 as u8; number_of_cells];
+        let numbers = |name: &str, numbers: Numbers<'_>| compression.array(name, 1, numbers.collect::<IOBuffer>());
+        let cells =
+            vec![numbers("connectivity", self.cells.connectivity())?, numbers("offsets", self.cells.offsets())?];
+        let types = compression.array("types", 1, types.into())?;
+        let piece = Piece {
+            number_of_points: self.number_of_points,
+            number_of_cells,
+            point_data: data(self.on_points, compression)?,
+            cell_data: data(self.on_cells, compression)?,
+            points: Arrays { arrays: vec![vectors("Points", (self.points)(), compression)?] },
+            cells: Arrays { arrays: cells.into_iter().chain([types]).collect() },
+        };
+        piece.write(compression, to)
     }
 
     /// The content of the file.
@@ -208,16 +216,21 @@ impl VtkFile<'_> {
 }
 
 /// 2-vectors with a third component of 0.
-fn vectors(arrays: &mut Arrays<'_>, name: &str, values: impl Iterator<Item = Vec2>) -> io::Result<()> {
-    arrays.array(name, 3, values.flat_map(|v| [v.x, v.y, 0.0]))
+fn vectors(name: &str, values: impl Iterator<Item = Vec2>, compression: Compression) -> io::Result<DataArray> {
+    compression.array(name, 3, values.flat_map(|v| [v.x, v.y, 0.0]).collect::<IOBuffer>())
 }
 
-fn field(arrays: &mut Arrays<'_>, Field { name, values, .. }: &Field<'_>) -> io::Result<()> {
-    match values {
-        Values::Scalar(values) => arrays.array(name, 1, values.iter().copied()),
-        Values::Vector(values) => vectors(arrays, name, values.iter().copied()),
-        Values::Integer(values) => arrays.array(name, 1, values.iter().copied()),
+/// The fields.
+fn data(fields: &[Field<'_>], compression: Compression) -> io::Result<AttributeData> {
+    let mut data = AttributeData::default();
+    for Field { name, values, .. } in fields {
+        data.data_array.push(match values {
+            Values::Scalar(values) => compression.array(name, 1, values.to_vec().into()),
+            Values::Vector(values) => vectors(name, values.iter().copied(), compression),
+            Values::Integer(values) => compression.array(name, 1, values.to_vec().into()),
+        }?);
     }
+    Ok(data)
 }
 
 #[cfg(test)]
@@ -230,8 +243,7 @@ mod tests {
     use std::borrow::Cow;
     use std::sync::Arc;
 
-    use vtkio::IOBuffer;
-    use vtkio::model::{Attribute, CellType, DataSet, UnstructuredGridPiece, VertexNumbers, Vtk};
+    use vtkio::model::{Attribute, DataSet, UnstructuredGridPiece, VertexNumbers, Vtk};
 
     use super::*;
     use meniscus_core::snapshot::{Outlined, Outlines, Vertices};

@@ -10,7 +10,7 @@ use flate2::read::ZlibDecoder;
 use roxmltree::{Document, Node};
 
 use super::Compression;
-use super::arrays::{BLOCK, HEADER};
+use super::document::{BLOCK, HEADER};
 use meniscus_core::math::Vec2;
 use meniscus_core::snapshot::{Cloud, Field, Lines};
 
