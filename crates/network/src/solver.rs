@@ -166,7 +166,12 @@ impl Solver for NetworkSolver {
         let mut results = results_with(&self.model, cycles.map(Cycles::occupation));
         if let Some(cycles) = cycles {
             results.tables.push(Box::new(|| tables::events(config, cycles)));
-            results.tables.extend(tables::capillary_pressure(config, cycles));
+            let with_films = config.tension.filter(|_| cycles.has_films());
+            results.tables.extend(
+                with_films.map(|tension| -> Made<'_, Table> {
+                    Box::new(move || tables::capillary_pressure(cycles, tension))
+                }),
+            );
         }
         // Before the others are made, since it takes as much memory as all of them.
         results

@@ -7,7 +7,6 @@ use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::summary::{PoreState, pore_states};
 use meniscus_core::math::Vec2;
-use meniscus_core::solver::Made;
 use meniscus_core::table::{Cells, Column, Table};
 
 pub(super) fn numbers(name: &'static str, values: impl IntoIterator<Item = f64>) -> Column {
@@ -299,13 +298,8 @@ fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
     cycles.record.outcomes.iter().enumerate().flat_map(of_half).collect()
 }
 
-/// `capillary_pressure.csv`: the curve with the films at every pressure; `None` without films.
-pub(crate) fn capillary_pressure<'a>(config: &Configuration, cycles: &'a Cycles) -> Option<Made<'a, Table>> {
-    let tension = config.tension.filter(|_| cycles.has_films())?;
-    Some(Box::new(move || curve(cycles, tension)))
-}
-
-fn curve(cycles: &Cycles, tension: f64) -> Table {
+/// `capillary_pressure.csv`: the curve with the films at every pressure, with the tension in N/m.
+pub(crate) fn capillary_pressure(cycles: &Cycles, tension: f64) -> Table {
     let curve = &cycles.record.curve;
     let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].invading.process();
     Table {
