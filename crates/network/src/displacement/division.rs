@@ -5,11 +5,19 @@ use std::sync::Arc;
 use super::conditions::OpenDisc;
 use super::mesh::Mesh;
 use super::outline::outline;
-use super::progress::Element;
 use crate::graph::{Network, Pores};
 use meniscus_case::network::Events;
 use meniscus_core::math::Vec2;
 use meniscus_core::snapshot::Outlines;
+
+/// A part of the pore space between walls and gates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// The region that it is part of.
+    pub region: usize,
+    /// Area in m².
+    pub area: f64,
+}
 
 /// The division of the pore space into elements, independent of contact angles.
 #[derive(Debug, Clone, Default)]

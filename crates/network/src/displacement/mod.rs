@@ -37,12 +37,13 @@ mod walls;
 
 pub use self::conditions::{Conditions, CornerFilms, FilmPaths, MeasuredBurst, OpenDisc};
 pub(crate) use self::division::Division;
+pub use self::division::Element;
 pub(crate) use self::driven::{Advance, GateFacts};
 pub use self::event::EventKind;
 pub(crate) use self::mesh::FrontId;
 pub(crate) use self::outflow::Outflow;
 pub(crate) use self::outline::{centroid, contains, edges};
-pub use self::progress::{Displacement, Element, Phase};
+pub use self::progress::{Displacement, Phase};
 pub(crate) use self::rims::RimCurve;
 pub use self::sequence::Event;
 pub(crate) use self::static_menisci::{Beginning, Interfaces, StaticMeniscus};

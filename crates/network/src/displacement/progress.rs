@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::conditions::{Conditions, OpenDisc};
 use super::connected::Held;
-use super::division::Division;
+use super::division::{Division, Element};
 use super::event::Candidate;
 use super::mesh::{Gate, Mesh};
 use super::outline::{centroid, outline};
@@ -25,15 +25,6 @@ pub enum Phase {
     Defending,
     /// The invading phase.
     Invading,
-}
-
-/// A part of the pore space between walls and gates.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Element {
-    /// The region that it is part of.
-    pub region: usize,
-    /// Area in m².
-    pub area: f64,
 }
 
 /// A meniscus in a gate, facing the element on one side of it.
