@@ -52,8 +52,8 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
 
 fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
     let files = [
-        ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(Failure::with(BUG))?.bytes()),
-        ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(Failure::with(BUG))?.bytes()),
+        ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(Failure::with(BUG))?),
+        ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(Failure::with(BUG))?),
         (
             "picture.png",
             picture(&pore(shapes), &shapes.outline, title, None)

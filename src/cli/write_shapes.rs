@@ -27,7 +27,7 @@ pub(crate) fn write_shapes(
             Some(format) => export::write(&shapes.spec, format, beside).map_err(Failure::with(USAGE))?,
             None => {
                 let geometry = Geometry::new(&shapes.spec).map_err(Failure::with(BAD_INPUT))?;
-                vtk::lines(&geometry.outline(), vtk::Compression::default()).map_err(Failure::with(BUG))?.bytes()
+                vtk::lines(&geometry.outline(), vtk::Compression::default()).map_err(Failure::with(BUG))?
             }
         };
         atomic::write(path, &bytes).map_err(Failure::with(USAGE))?;

@@ -101,9 +101,8 @@ pub(crate) fn write_map(
     let path = |ending: &str| folder.join(format!("invasion{suffix}.{ending}"));
     table::write_at(&path("csv"), &map.table(probability))?;
     let failed = |ending: &str, what: String| FileError::Format { path: path(ending), what };
-    let layer = map.layer(probability);
-    let file = vtk::layer(&layer, Compression::default()).map_err(|error| failed("vtu", error.to_string()))?;
-    atomic::write_with(&path("vtu"), |to| file.write(to))?;
+    let layer = vtk::layer(&map.layer(probability), Compression::default());
+    atomic::write(&path("vtu"), &layer.map_err(|error| failed("vtu", error.to_string()))?)?;
     let picture = region_map_picture(&map.region_map(probability, note), title);
     let picture = picture.and_then(|picture| picture.png());
     atomic::write(&path("png"), &picture.map_err(|error| failed("png", error.to_string()))?)

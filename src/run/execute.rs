@@ -242,9 +242,9 @@ fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> 
     let folder = &job.folder;
     let layer = |layer: &Layer<'_>| {
         let path = folder.join(format!("{}.vtu", layer.name));
-        let file = vtk::layer(layer, compression(&job.case.output))
+        let content = vtk::layer(layer, compression(&job.case.output))
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write_with(&path, |to| file.write(to))
+        atomic::write(&path, &content)
     };
     let text = |one: &Document<'_>| atomic::write_with(&folder.join(one.name), |to| one.write(to));
     let texts = || results.documents.iter().try_for_each(text);

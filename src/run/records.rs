@@ -89,10 +89,9 @@ impl Records {
     pub(crate) fn write_outline(&self, solver: &dyn Solver) -> Result<(), FileError> {
         let Some(files) = &self.files else { return Ok(()) };
         let path = files.folder.join("solid.vtu");
-        let outline = solver.outline();
-        let file = vtk::lines(&outline, files.compression)
+        let outline = vtk::lines(&solver.outline(), files.compression)
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write_with(&path, |to| file.write(to))
+        atomic::write(&path, &outline)
     }
 
     /// Writes `units.json`.

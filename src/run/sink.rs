@@ -9,7 +9,7 @@ use meniscus_core::solver::Solver;
 use meniscus_output::frames::{FrameList, Written};
 use meniscus_output::journal::Mark;
 use meniscus_output::pvd::Collection;
-use meniscus_output::vtk::{self, Compression, VtkError, VtkFile};
+use meniscus_output::vtk::{self, Compression, VtkError};
 use meniscus_output::{FileError, atomic};
 
 /// The data of the solver for VTK files, copied so that the solver can continue while they are written.
@@ -92,13 +92,13 @@ impl VtkFiles {
         &mut self,
         name: &'static str,
         time: f64,
-        content: Result<VtkFile<'_>, VtkError>,
+        content: Result<Vec<u8>, VtkError>,
         frames: &mut FrameList,
     ) -> Result<(), FileError> {
         let new = || Collection::new(&self.folder, name, &self.written);
         let files = self.series.entry(name).or_insert_with(new);
         let content = content.map_err(|error| FileError::Format { path: files.path(), what: error.to_string() })?;
-        files.record(time, &|to| content.write(to), frames)
+        files.record(time, &content, frames)
     }
 }
 

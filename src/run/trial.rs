@@ -100,9 +100,7 @@ fn trial_within(
             snapshot.grid.as_ref().map(|grid| vtk::grid(grid, form)),
             snapshot.interface.as_ref().map(|interface| vtk::lines(interface, form)),
         ];
-        let files: Vec<_> = files.into_iter().flatten().flatten().map(|file| file.bytes()).collect();
-        let layers: Vec<_> =
-            solver.layers().iter().filter_map(|layer| Some(vtk::layer(layer, form).ok()?.bytes())).collect();
+        let layers: Vec<_> = solver.layers().iter().map(|layer| vtk::layer(layer, form)).collect();
         (snapshot, files, layers)
     });
     let (ending, at_end) = timed(|| {

@@ -187,7 +187,7 @@ fn frame(config: &Configuration) -> Frame {
 /// The boundary of an element: its curves, or where these do not close its outline without walls.
 fn rim(displacement: &Displacement, index: usize) -> Vec<RimCurve> {
     displacement.rim(index).unwrap_or_else(|| {
-        let outline = displacement.division().outline(index);
+        let outline = displacement.outline(index);
         edges_of(&outline).map(|(a, b)| (Curve::Segment { a, b }, None)).collect()
     })
 }

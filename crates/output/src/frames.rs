@@ -2,13 +2,12 @@
 //!
 //! A row is appended for each file, before the `.pvd` names the file. A resumed run reads from it which files there must be.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::atomic::{self, FileError};
-use super::checksum::{Summed, fnv1a};
+use super::checksum::fnv1a;
 use super::journal::{self, Journal, Mark};
 
 /// A file that was written.
@@ -23,9 +22,6 @@ pub struct Written {
     /// Its checksum.
     pub checksum: u64,
 }
-
-/// Writes the content of a file.
-pub type Content<'a> = &'a dyn Fn(&mut dyn Write) -> io::Result<()>;
 
 /// The list on disk and in memory.
 #[derive(Debug)]
@@ -56,16 +52,10 @@ impl FrameList {
     }
 
     /// Writes a file and records it.
-    pub(crate) fn write(&mut self, time: f64, file: &str, content: Content<'_>) -> Result<(), FileError> {
-        let (mut bytes, mut checksum) = (0, 0);
-        atomic::write_with(&self.folder.join(file), |to| {
-            let mut summed = Summed::new(to);
-            content(&mut summed)?;
-            (bytes, checksum) = (summed.bytes, summed.checksum);
-            Ok(())
-        })?;
+    pub(crate) fn write(&mut self, time: f64, file: &str, content: &[u8]) -> Result<(), FileError> {
+        atomic::write(&self.folder.join(file), content)?;
         let mut writer = csv::WriterBuilder::new().has_headers(self.mark().bytes == 0).from_writer(Vec::<u8>::new());
-        let written = Written { time, file: file.to_owned(), bytes, checksum };
+        let written = Written { time, file: file.to_owned(), bytes: content.len(), checksum: fnv1a(content) };
         writer.serialize(written).map_err(FileError::format(&self.journal.path))?;
         let line = writer.into_inner().map_err(FileError::format(&self.journal.path))?;
         self.journal.append(&line)
@@ -119,7 +109,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut list = FrameList::new(folder.path());
         for (time, file, content) in [(0.0, "a/a-0", "zero"), (0.5, "a/a-1", "one"), (0.5, "a/a-1", "again")] {
-            list.write(time, file, &|to| to.write_all(content.as_bytes())).unwrap();
+            list.write(time, file, content.as_bytes()).unwrap();
         }
         let frames = read(folder.path(), list.mark()).unwrap();
         assert_eq!((frames.len(), frames[1].time, frames[2].bytes), (3, 0.5, 5));

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::atomic::{self, FileError};
-use super::frames::{Content, FrameList, Written};
+use super::frames::{FrameList, Written};
 
 /// A time series of VTK files: `NAME.pvd` next to the folder `NAME/` with `NAME-000000.vtu` and so on.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl Collection {
     }
 
     /// Writes the VTK file of `time` (s), lists it in `frames`, then writes the `.pvd` that includes it.
-    pub fn record(&mut self, time: f64, content: Content<'_>, frames: &mut FrameList) -> Result<(), FileError> {
+    pub fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
         self.cut(time);
         let file = format!("{0}/{0}-{1:06}.vtu", self.name, self.entries.len());
         frames.write(time, &file, content)?;
@@ -100,10 +100,10 @@ mod tests {
     fn resuming_drops_later_times_doubles_none_and_needs_no_pvd() {
         let folder = tempfile::tempdir().unwrap();
         let (mut series, mut list) = (Collection::new(folder.path(), "grid", &[]), FrameList::new(folder.path()));
-        series.record(0.0, &|to| to.write_all(b"x"), &mut list).unwrap();
-        series.record(1.0e-7, &|to| to.write_all(b"x"), &mut list).unwrap();
+        series.record(0.0, b"x", &mut list).unwrap();
+        series.record(1.0e-7, b"x", &mut list).unwrap();
         let mark = list.mark();
-        series.record(0.1 + 0.2, &|to| to.write_all(b"x"), &mut list).unwrap();
+        series.record(0.1 + 0.2, b"x", &mut list).unwrap();
         let unbroken = std::fs::read(series.path()).unwrap();
         std::fs::write(series.path(), "damaged").unwrap();
         let written = frames::read(folder.path(), mark).unwrap();
@@ -111,8 +111,8 @@ mod tests {
         assert_eq!(std::fs::read_to_string(series.path()).unwrap().matches("<DataSet ").count(), 2);
         let (mut series, mut list) =
             (Collection::new(folder.path(), "grid", &written), FrameList::resume(folder.path(), mark).unwrap());
-        series.record(1.0e-7, &|to| to.write_all(b"x"), &mut list).unwrap();
-        series.record(0.1 + 0.2, &|to| to.write_all(b"x"), &mut list).unwrap();
+        series.record(1.0e-7, b"x", &mut list).unwrap();
+        series.record(0.1 + 0.2, b"x", &mut list).unwrap();
         assert_eq!(std::fs::read(series.path()).unwrap(), unbroken);
         assert_eq!(std::fs::read_dir(folder.path().join("grid")).unwrap().count(), 3);
         let times = [0.0, 1.0e-7, 0.1 + 0.2].into_iter().enumerate();

@@ -7,8 +7,6 @@
 mod document;
 pub mod read;
 
-use std::io::{self, Write};
-
 use vtkio::IOBuffer;
 use vtkio::model::CellType;
 use vtkio::xml::{AttributeData, DataArray};
@@ -42,193 +40,106 @@ pub enum VtkError {
         /// Number of points.
         expected: usize,
     },
-}
-
-/// Returns points in m.
-type Points<'a> = Box<dyn Fn() -> Box<dyn Iterator<Item = Vec2> + 'a> + 'a>;
-
-/// A file ready to be written.
-pub struct VtkFile<'a> {
-    points: Points<'a>,
-    number_of_points: usize,
-    cells: Cells<'a>,
-    on_points: &'a [Field<'a>],
-    on_cells: &'a [Field<'a>],
-    compression: Compression,
+    /// The error of the writing library.
+    #[error("the file cannot be written: {0}")]
+    Write(String),
 }
 
 /// Points, each a vertex.
-///
-/// # Errors
-/// [`VtkError`] if a field has another length than its points.
-pub fn points<'a>(cloud: &'a Cloud<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    file(
-        (given(&cloud.points), cloud.points.len()),
-        Cells::Vertices(cloud.points.len()),
-        [&cloud.fields, &[]],
-        compression,
-    )
+pub fn points(cloud: &Cloud<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let cells = Cells::new(CellType::Vertex, (0..cloud.points.len()).map(|point| [point]));
+    file(&cloud.points, cells, [&cloud.fields, &[]], compression)
 }
 
 /// Fields on the corners of the quadrilaterals of a regular grid.
-///
-/// # Errors
-/// [`VtkError`] if a field has another length than its nodes.
-pub fn grid<'a>(grid: &'a Grid<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    let points = || -> Box<dyn Iterator<Item = Vec2>> { Box::new(grid.points().into_iter()) };
-    let count = grid.counts[0] * grid.counts[1];
-    file((Box::new(points), count), Cells::Quadrilaterals(grid.counts), [&grid.fields, &[]], compression)
+pub fn grid(grid: &Grid<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let [columns, rows] = grid.counts;
+    let nodes = (1..rows).flat_map(|row| (1..columns).map(move |column| row * columns + column));
+    let corners = nodes.map(|node| [node - columns - 1, node - columns, node, node - 1]);
+    file(&grid.points(), Cells::new(CellType::Quad, corners), [&grid.fields, &[]], compression)
 }
 
 /// Polylines, segment by segment.
-///
-/// # Errors
-/// [`VtkError`] if a field has another length than its vertices.
-pub fn lines<'a>(lines: &'a Lines<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    file((given(&lines.points), lines.points.len()), Cells::Segments(&lines.lines), [&lines.fields, &[]], compression)
+pub fn lines(lines: &Lines<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let segments = lines.lines.iter().flat_map(|line| line.windows(2)).map(|it| [it[0] as usize, it[1] as usize]);
+    file(&lines.points, Cells::new(CellType::Line, segments), [&lines.fields, &[]], compression)
 }
 
 /// Cells with fields on them.
-///
-/// # Errors
-/// [`VtkError`] if a field has another length than its cells.
-pub fn layer<'a>(layer: &'a Layer<'_>, compression: Compression) -> Result<VtkFile<'a>, VtkError> {
-    let count = layer.ends.last().map_or(0, |&end| end as usize);
-    let points = (Box::new(|| layer.vertices()) as Points<'a>, count);
-    file(points, Cells::Consecutive(layer.kind, &layer.ends), [&[], &layer.fields], compression)
+pub fn layer(layer: &Layer<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let kind = match layer.kind {
+        CellKind::Points => CellType::Vertex,
+        CellKind::Lines => CellType::Line,
+        CellKind::Polygons => CellType::Polygon,
+    };
+    let points: Vec<Vec2> = layer.vertices().collect();
+    let connectivity = (0..points.len() as i64).collect();
+    let cells = Cells { kind, connectivity, offsets: layer.ends.iter().map(|&end| end.into()).collect() };
+    file(&points, cells, [&[], &layer.fields], compression)
 }
 
-fn given(points: &[Vec2]) -> Points<'_> {
-    Box::new(|| Box::new(points.iter().copied()))
+/// Cells of one kind: their points, one after the other, and the end offset of each.
+struct Cells {
+    kind: CellType,
+    connectivity: Vec<i64>,
+    offsets: Vec<i64>,
+}
+
+impl Cells {
+    fn new(kind: CellType, of: impl Iterator<Item = impl IntoIterator<Item = usize>>) -> Self {
+        let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
+        for cell in of {
+            connectivity.extend(cell.into_iter().map(|point| point as i64));
+            offsets.push(connectivity.len() as i64);
+        }
+        Self { kind, connectivity, offsets }
+    }
 }
 
 /// The file of points and cells with fields on both.
-fn file<'a>(
-    (points, number_of_points): (Points<'a>, usize),
-    cells: Cells<'a>,
-    [on_points, on_cells]: [&'a [Field<'a>]; 2],
+fn file(
+    points: &[Vec2],
+    cells: Cells,
+    [on_points, on_cells]: [&[Field<'_>]; 2],
     compression: Compression,
-) -> Result<VtkFile<'a>, VtkError> {
-    for (fields, expected) in [(on_points, number_of_points), (on_cells, cells.count())] {
-        let length = |field: &Field<'_>| match &field.values {
-            Values::Scalar(values) => values.len(),
-            Values::Vector(values) => values.len(),
-            Values::Integer(values) => values.len(),
-        };
-        if let Some(field) = fields.iter().find(|field| length(field) != expected) {
-            return Err(VtkError::Length { name: field.name, found: length(field), expected });
-        }
-    }
-    Ok(VtkFile { points, number_of_points, cells, on_points, on_cells, compression })
-}
-
-/// Cells of one kind.
-enum Cells<'a> {
-    /// One for each of so many points.
-    Vertices(usize),
-    /// Those of a grid of so many nodes along x and y.
-    Quadrilaterals([usize; 2]),
-    /// The segments of polylines.
-    Segments(&'a [Vec<u32>]),
-    /// Those of a layer, each of consecutive points, by their ends.
-    Consecutive(CellKind, &'a [u32]),
-}
-
-/// Numbers of points or of cells, in order.
-type Numbers<'a> = Box<dyn Iterator<Item = i64> + 'a>;
-
-impl Cells<'_> {
-    /// Their kind in VTK, and the number of the points of each, if all have as many.
-    fn kind(&self) -> (CellType, Option<i64>) {
-        match self {
-            Self::Vertices(_) | Self::Consecutive(CellKind::Points, _) => (CellType::Vertex, Some(1)),
-            Self::Segments(_) => (CellType::Line, Some(2)),
-            Self::Consecutive(CellKind::Lines, _) => (CellType::Line, None),
-            Self::Consecutive(CellKind::Polygons, _) => (CellType::Polygon, None),
-            Self::Quadrilaterals(_) => (CellType::Quad, Some(4)),
-        }
-    }
-
-    fn count(&self) -> usize {
-        match self {
-            Self::Vertices(count) => *count,
-            Self::Quadrilaterals([columns, rows]) => columns.saturating_sub(1) * rows.saturating_sub(1),
-            Self::Segments(lines) => lines.iter().map(|line| line.len().saturating_sub(1)).sum(),
-            Self::Consecutive(_, ends) => ends.len(),
-        }
-    }
-
-    /// The points of all cells.
-    fn connectivity(&self) -> Numbers<'_> {
-        match self {
-            Self::Vertices(count) => Box::new(0..*count as i64),
-            Self::Quadrilaterals([columns, rows]) => {
-                let [columns, rows] = [*columns as i64, *rows as i64];
-                let nodes = (1..rows).flat_map(move |row| (1..columns).map(move |column| row * columns + column));
-                Box::new(nodes.flat_map(move |node| [node - columns - 1, node - columns, node, node - 1]))
-            }
-            Self::Segments(lines) => {
-                Box::new(lines.iter().flat_map(|line| line.windows(2)).flatten().map(|&it| it.into()))
-            }
-            Self::Consecutive(_, ends) => Box::new(0..ends.last().map_or(0, |&end| end.into())),
-        }
-    }
-
-    /// The end of each cell in the connectivity.
-    fn offsets(&self) -> Numbers<'_> {
-        match (self.kind().1, self) {
-            (_, Self::Consecutive(_, ends)) => Box::new(ends.iter().map(|&end| end.into())),
-            (each, _) => Box::new((1..=self.count() as i64).map(move |cell| cell * each.unwrap_or_default())),
-        }
-    }
-}
-
-impl VtkFile<'_> {
-    /// Writes the file.
-    ///
-    /// # Errors
-    /// Those of the library and of the target.
-    pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        let (compression, number_of_cells) = (self.compression, self.cells.count());
-        let types = vec![self.cells.kind().0 as u8; number_of_cells];
-        let numbers = |name: &str, numbers: Numbers<'_>| compression.array(name, 1, numbers.collect::<IOBuffer>());
-        let cells =
-            vec![numbers("connectivity", self.cells.connectivity())?, numbers("offsets", self.cells.offsets())?];
-        let types = compression.array("types", 1, types.into())?;
-        let piece = Piece {
-            number_of_points: self.number_of_points,
-            number_of_cells,
-            point_data: data(self.on_points, compression)?,
-            cell_data: data(self.on_cells, compression)?,
-            points: Arrays { arrays: vec![vectors("Points", (self.points)(), compression)?] },
-            cells: Arrays { arrays: cells.into_iter().chain([types]).collect() },
-        };
-        piece.write(compression, to)
-    }
-
-    /// The content of the file.
-    pub fn bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        // Writing to memory cannot fail.
-        let _ = self.write(&mut bytes);
-        bytes
-    }
+) -> Result<Vec<u8>, VtkError> {
+    let (number_of_points, number_of_cells) = (points.len(), cells.offsets.len());
+    let types = vec![cells.kind as u8; number_of_cells];
+    let piece = Piece {
+        number_of_points,
+        number_of_cells,
+        point_data: data(on_points, number_of_points, compression)?,
+        cell_data: data(on_cells, number_of_cells, compression)?,
+        points: Arrays { arrays: vec![vectors("Points", points, compression)?] },
+        cells: Arrays {
+            arrays: vec![
+                compression.array("connectivity", 1, cells.connectivity.into())?,
+                compression.array("offsets", 1, cells.offsets.into())?,
+                compression.array("types", 1, types.into())?,
+            ],
+        },
+    };
+    piece.into_file(compression)
 }
 
 /// 2-vectors with a third component of 0.
-fn vectors(name: &str, values: impl Iterator<Item = Vec2>, compression: Compression) -> io::Result<DataArray> {
-    compression.array(name, 3, values.flat_map(|v| [v.x, v.y, 0.0]).collect::<IOBuffer>())
+fn vectors(name: &str, values: &[Vec2], compression: Compression) -> Result<DataArray, VtkError> {
+    compression.array(name, 3, values.iter().flat_map(|v| [v.x, v.y, 0.0]).collect::<IOBuffer>())
 }
 
-/// The fields.
-fn data(fields: &[Field<'_>], compression: Compression) -> io::Result<AttributeData> {
+/// The fields, each with `expected` values.
+fn data(fields: &[Field<'_>], expected: usize, compression: Compression) -> Result<AttributeData, VtkError> {
     let mut data = AttributeData::default();
     for Field { name, values, .. } in fields {
-        data.data_array.push(match values {
-            Values::Scalar(values) => compression.array(name, 1, values.to_vec().into()),
-            Values::Vector(values) => vectors(name, values.iter().copied(), compression),
-            Values::Integer(values) => compression.array(name, 1, values.to_vec().into()),
-        }?);
+        let (found, array) = match values {
+            Values::Scalar(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
+            Values::Vector(values) => (values.len(), vectors(name, values, compression)),
+            Values::Integer(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
+        };
+        if found != expected {
+            return Err(VtkError::Length { name, found, expected });
+        }
+        data.data_array.push(array?);
     }
     Ok(data)
 }
@@ -272,7 +183,7 @@ mod tests {
     fn a_grid_has_its_nodes_in_double_precision_at_the_corners_of_quadrilaterals() {
         let (origin, spacing) = (Vec2::new(0.1e-3, -1.0 / 3.0), Vec2::new(1.0e-5, 2.0e-5));
         let example = Grid { origin, spacing, counts: [3, 2], fields: fields(6) };
-        let piece = parse(&grid(&example, Compression::None).unwrap().bytes());
+        let piece = parse(&grid(&example, Compression::None).unwrap());
         let nodes = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0]];
         assert_eq!(piece.points, coordinates(&nodes.map(|[x, y]| origin + Vec2::new(x, y).component_mul(&spacing))));
         assert_eq!(piece.cells.types, [CellType::Quad; 2]);
@@ -285,7 +196,7 @@ mod tests {
         let vertices = [Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
         let example =
             Lines { points: Cow::Borrowed(&vertices), lines: vec![vec![0, 1, 2, 0], vec![1, 2]], fields: fields(3) };
-        let piece = parse(&lines(&example, Compression::None).unwrap().bytes());
+        let piece = parse(&lines(&example, Compression::None).unwrap());
         assert_eq!(piece.cells.types, [CellType::Line; 4]);
         let (connectivity, offsets) = (vec![0, 1, 1, 2, 2, 0, 1, 2], vec![2, 4, 6, 8]);
         assert_eq!(piece.cells.cell_verts, VertexNumbers::XML { connectivity, offsets });
@@ -303,7 +214,7 @@ mod tests {
         let vertices = Vertices::Made(Outlines(Arc::new(Polygons(square))));
         let example =
             Layer { name: "regions", kind: CellKind::Polygons, vertices, ends: vec![4, 7], fields: fields(2) };
-        let piece = parse(&layer(&example, Compression::None).unwrap().bytes());
+        let piece = parse(&layer(&example, Compression::None).unwrap());
         assert_eq!(piece.cells.types, [CellType::Polygon; 2]);
         assert_eq!((piece.data.point.len(), piece.data.cell.len()), (0, 3));
         assert_eq!(piece.points, coordinates(&[&square[..], &square[1..]].concat()));
@@ -315,7 +226,7 @@ mod tests {
     fn files_without_points_tell_their_counts_and_the_names_of_their_fields() {
         for compression in [Compression::None, Compression::Zlib, Compression::Lz4] {
             let nothing = Lines { fields: fields(0), ..Lines::default() };
-            let text = String::from_utf8(lines(&nothing, compression).unwrap().bytes()).unwrap();
+            let text = String::from_utf8(lines(&nothing, compression).unwrap()).unwrap();
             for expected in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
                 assert!(text.contains(expected), "{text}");
             }
@@ -332,7 +243,7 @@ mod tests {
             let given: Vec<Vec2> = (0..count).map(|i| Vec2::new((i as f64).sqrt(), -(i as f64) / 7.0)).collect();
             let cloud = Cloud { points: given.clone().into(), fields: fields(count) };
             for (compression, name) in &names {
-                let content = points(&cloud, *compression).unwrap().bytes();
+                let content = points(&cloud, *compression).unwrap();
                 if *compression == Compression::None {
                     let piece = parse(&content);
                     assert_eq!(piece.points, coordinates(&given), "{count} points");
@@ -357,7 +268,7 @@ mod tests {
     fn a_field_of_another_length_is_refused() {
         let cloud = Cloud { points: vec![Vec2::zeros(); 2].into(), fields: fields(3) };
         assert_eq!(
-            points(&cloud, Compression::None).err().unwrap().to_string(),
+            points(&cloud, Compression::None).unwrap_err().to_string(),
             "the field pressure has 3 values, expected 2"
         );
     }

@@ -1,6 +1,6 @@
 //! Boundaries of elements with their kinds, and what has changed in them, for a displacement to play.
 
-use super::loops::{Crossing, Loop};
+use super::loops::{Crossing, GateId, Loop};
 use super::progress::Displacement;
 use meniscus_core::math::Vec2;
 use meniscus_geometry::curve::Curve;
@@ -46,7 +46,7 @@ impl Displacement {
                     return None;
                 }
                 let throat = match crossing.gate {
-                    super::loops::GateId::Throat(throat, _) => Some(throat as usize),
+                    GateId::Throat(throat, _) => Some(throat as usize),
                     _ => None,
                 };
                 Some(Joint { elements: [index, other], ends: [crossing.from, crossing.to], throat })

@@ -12,7 +12,7 @@
 //! Layout of a compressed array: number of blocks, their size, size of the last one if it is shorter (else 0), compressed size of each, all as 64 bits; then,
 //! in a separate base 64 string, the blocks. Source: VTK File Formats, chapter on XML formats, Kitware.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -24,7 +24,7 @@ use vtkio::xml::{
     AttributeData, Compressor, Data, DataArray, DataArrayFormat, DataSetType, EncodingInfo, ScalarType, se,
 };
 
-use super::Compression;
+use super::{Compression, VtkError};
 
 /// Bytes of a block before compression, as in VTK itself.
 pub(super) const BLOCK: usize = 32768;
@@ -83,8 +83,8 @@ pub(super) struct Arrays {
 }
 
 impl Piece {
-    /// Writes the file with this piece, with compressed arrays.
-    pub(super) fn write(self, compression: Compression, to: &mut dyn Write) -> io::Result<()> {
+    /// The file with this piece, with compressed arrays.
+    pub(super) fn into_file(self, compression: Compression) -> Result<Vec<u8>, VtkError> {
         let document = Document {
             kind: DataSetType::UnstructuredGrid,
             version: Version::new_xml(1, 0),
@@ -93,7 +93,7 @@ impl Piece {
             compressor: compression.compressor(),
             grid: Grid { piece: self },
         };
-        to.write_all(se::to_string(&document).map_err(io::Error::other)?.as_bytes())
+        se::to_string(&document).map(String::into_bytes).map_err(|error| VtkError::Write(error.to_string()))
     }
 }
 
@@ -107,14 +107,14 @@ impl Compression {
     }
 
     /// A named array with `num_comp` components.
-    pub(super) fn array(self, name: &str, num_comp: u32, values: IOBuffer) -> io::Result<DataArray> {
+    pub(super) fn array(self, name: &str, num_comp: u32, values: IOBuffer) -> Result<DataArray, VtkError> {
         let scalar_type = values.scalar_type().into();
         let (format, text) = if values.is_empty() {
             // A space, because meshio expects some text.
             (DataArrayFormat::Ascii, " ".to_owned())
         } else {
             let text = values.into_bytes_with_size_encoded(PLAIN, |bytes, text| self.encode(bytes, text));
-            (DataArrayFormat::Binary, text.map_err(io::Error::other)?)
+            (DataArrayFormat::Binary, text.map_err(|error| VtkError::Write(error.to_string()))?)
         };
         let data = vec![Data::Data(text)];
         Ok(DataArray { scalar_type, name: name.to_owned(), num_comp, format, data, ..DataArray::default() })

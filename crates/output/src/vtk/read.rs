@@ -1,6 +1,6 @@
 //! Reads the files of this module back, for movies: points, cells and named arrays on the points.
 //!
-//! vtkio 0.7.0-rc2 reads none of the compressed ones. The layout is that in [`arrays`](super::arrays).
+//! vtkio 0.7.0-rc2 reads none of the compressed ones. The layout is that in [`document`](super::document).
 
 use std::io::Read;
 
@@ -178,7 +178,7 @@ mod tests {
         // Blocks are full at 4096 numbers of an array.
         for (count, compression) in [0, 1, 4095, 4096, 4097, 12288].into_iter().flat_map(|n| ALL.map(|c| (n, c))) {
             let given = cloud(count);
-            let file = vtk::points(&given, compression).unwrap().bytes();
+            let file = vtk::points(&given, compression).unwrap();
             let found = points(&file, &["phase", "absent", "volume"]).unwrap();
             assert_eq!(found.points, given.points, "{count} {compression:?}");
             let [Values::Integer(phase), Values::Scalar(volume)] = [&found.fields[0].values, &found.fields[1].values]
@@ -200,16 +200,16 @@ mod tests {
         let lines_given = vec![vec![0, 1, 2, 0], vec![3, 4]];
         let given = Lines { points: corners.to_vec().into(), lines: lines_given.clone(), fields: Vec::new() };
         for compression in ALL {
-            let found = lines(&vtk::lines(&given, compression).unwrap().bytes()).unwrap();
+            let found = lines(&vtk::lines(&given, compression).unwrap()).unwrap();
             assert_eq!((&found.points[..], &found.lines), (&corners[..], &lines_given));
-            assert!(lines(&vtk::lines(&Lines::default(), compression).unwrap().bytes()).unwrap().lines.is_empty());
+            assert!(lines(&vtk::lines(&Lines::default(), compression).unwrap()).unwrap().lines.is_empty());
         }
     }
 
     #[test]
     fn damage_anywhere_is_an_error_or_harmless_and_never_a_panic() {
         for compression in ALL {
-            let file = vtk::points(&cloud(700), compression).unwrap().bytes();
+            let file = vtk::points(&cloud(700), compression).unwrap();
             for cut in (0..file.len()).step_by(97) {
                 assert!(points(&file[..cut], &["phase"]).is_err(), "cut at {cut}");
             }
