@@ -200,3 +200,15 @@ fn the_page_of_five_thousand_pores_is_light_and_keeps_up_with_the_slider() {
     println!("{pores} pores in {size} bytes");
     played(&out, &["--speed"]);
 }
+
+#[test]
+#[ignore = "builds the site, minutes: cargo test --release --test postprocess -- --ignored"]
+fn the_site_is_whole_and_its_pages_play() {
+    let mut build = Command::new(env!("CARGO"));
+    build.current_dir(root()).args(["run", "--release", "--locked", "--package", "meniscus-site"]);
+    let printed = run(&mut build, "the site must be built");
+    let site = printed.trim().strip_prefix("the site is in ").unwrap_or_else(|| panic!("no folder in {printed}"));
+    let mut read = Command::new(browser_interpreter());
+    read.arg(root().join("postprocess/tests/browser/read_site.py")).arg(browser()).arg(site);
+    println!("{}", run(&mut read, "the site must hold together"));
+}
