@@ -177,7 +177,9 @@ fn played(folder: &Path, more: &[&str]) {
 #[test]
 fn the_page_of_a_network_plays_in_a_browser() {
     let folder = tempfile::tempdir().unwrap();
-    for (out, case) in [("drainage", "chip"), ("films", "films"), ("in-time", "dynamic")] {
+    let cases =
+        [("drainage", "chip"), ("films", "films"), ("in-time", "dynamic"), ("by-itself", "spontaneous-imbibition")];
+    for (out, case) in cases {
         let case = root().join(format!("cases/network/{case}.toml")).display().to_string();
         assert_code(&meniscus(folder.path(), &["run", &case, "--set", "expect=[]", "--out", out]), 0);
         played(&folder.path().join(out), &[]);

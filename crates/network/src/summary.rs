@@ -47,8 +47,9 @@ fn state(occupation: &Occupation, elements: &[usize]) -> PoreState {
     let sum = |keep: &dyn Fn(usize) -> bool| elements.iter().filter(|&&e| keep(e)).map(|&e| area(e)).sum::<f64>();
     let half = 0.5 * sum(&|_| true);
     let is_invaded = sum(&|e| occupation.is_invaded(e)) > half;
-    let mut filled: Vec<(Invasion, f64)> =
-        elements.iter().filter_map(|&e| occupation.invasions[e].map(|invasion| (invasion, area(e)))).collect();
+    // In time, an element that a meniscus has entered is not filled yet.
+    let invasion_of = |&e: &usize| occupation.invasions[e].filter(|_| occupation.is_invaded(e));
+    let mut filled: Vec<(Invasion, f64)> = elements.iter().filter_map(|e| Some((invasion_of(e)?, area(*e)))).collect();
     filled.sort_by_key(|(invasion, _)| invasion.sequence);
     // Invading phase in it before this half cycle.
     let mut held = sum(&|e| occupation.is_invaded(e) && occupation.invasions[e].is_none());

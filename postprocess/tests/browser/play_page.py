@@ -138,22 +138,27 @@ def check_pointer(page: Page, folder: Path) -> None:
         checked += 1
     assert checked > 0.9 * number, f"{checked} of {number} throats"
     checked = 0
+    invading = page.evaluate("() => RUNS[0].stages.at(-1).wetting_invades ? 'wetting' : 'non-wetting'")
     for number, row, x, y in places(page, folder, "pores.csv"):
         page.mouse.move(x, y)
         if heading(page) != f"Pore {number}":
             continue
         shown = values(page, "#found")
         assert same(shown["inscribed_radius_m"], row["inscribed_radius_m"]) and same(shown["area_m2"], row["area_m2"])
-        assert shown["phase"] == row["phase"] and shown["sequence"] == row["sequence"], f"pore {number}: {shown} {row}"
+        assert shown["sequence"] == row["sequence"], f"pore {number}: {shown} {row}"
+        # In time, menisci may hold most of a pore before an event lets them in; until then the page has it unfilled.
+        waits = "time_s" in values(page, ".status") and row["phase"] == invading and not row["sequence"]
+        assert waits or shown["phase"] == row["phase"], f"pore {number}: {shown} {row}"
         checked += 1
     assert checked > 0.8 * number, f"{checked} of {number} pores"
 
 
 def share_of_wetting(page: Page) -> float:
-    """The share of the colored pixels of the map that are blue or green, the wetting phase."""
+    """The share of the colored pixels of the map that are blue or green, the wetting phase; throats are magenta."""
     image = Image.open(io.BytesIO(page.locator(".map").screenshot())).convert("RGB")
-    colored = [(red, green, blue) for red, green, blue in image.get_flattened_data() if max(red, green, blue) - min(red, green, blue) > 60]
-    return sum(blue > red for red, _, blue in colored) / len(colored)
+    colored = [(red, green, blue) for red, green, blue in image.get_flattened_data() if max(red, green, blue) - min(red, green, blue) > 25]
+    held = [(red, blue) for red, green, blue in colored if green > min(red, blue)]
+    return sum(blue > red for red, blue in held) / len(held)
 
 
 def check_picture(page: Page) -> None:

@@ -285,18 +285,19 @@ class ChipMap {
         return [(px - x) / scale, (y - py) / scale];
     }
 
-    /** The throat or the pore at a place, `reach` pixels around throats. */
+    /** The throat or the pore at a place: `reach` pixels around throats, but less than reaches the middles of the pores beside them. */
     find(px, py, reach) {
         if (!this.shapes) return null;
         const [x, y] = this.place(px, py), { passages, areas } = this.run, { x1, y1, x2, y2 } = passages;
         const cell = this.shapes.cells.get(`${Math.floor(x / this.shapes.cell)},${Math.floor(y / this.shapes.cell)}`);
         if (!cell) return null;
-        let nearest = { distance: reach * this.pixel, passage: -1 };
+        let nearest = { distance: Infinity, passage: -1 };
         for (const k of cell.passages) {
             const [dx, dy] = [x2[k] - x1[k], y2[k] - y1[k]];
             const along = Math.min(1, Math.max(0, ((x - x1[k]) * dx + (y - y1[k]) * dy) / (dx * dx + dy * dy)));
             const distance = Math.hypot(x - x1[k] - along * dx, y - y1[k] - along * dy);
-            if (distance < nearest.distance) nearest = { distance, passage: k };
+            const within = Math.min(reach * this.pixel, Math.max(this.pixel, Math.hypot(dx, dy) / 3));
+            if (distance < Math.min(within, nearest.distance)) nearest = { distance, passage: k };
         }
         if (nearest.passage >= 0) return { throat: passages.throat[nearest.passage] - 1 };
         const layer = this.marks;
