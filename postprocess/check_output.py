@@ -56,15 +56,17 @@ def measure(path: str | Path) -> dict:
 
 
 def measure_network(directory: Path, problems: list[str]) -> dict:
-    """The same of a network: regions over the displaced volume, tables and texts."""
+    """The same of a network: regions over the displaced volume, tables and texts; of one with `results = "curve"` series and report."""
+    is_whole = results.models(directory)["network"].get("results") != "curve"
     found = {
         "problems": problems,
-        "times": check_collection(directory, "regions", check_regions, problems),
+        "times": check_collection(directory, "regions", check_regions, problems) if is_whole else [],
         "records": check_series(directory / "series.csv", results.series_columns(directory), problems),
         "status": check_report(directory, problems),
     }
-    problems.extend(f"{name} is missing" for name in results.NETWORK_FILES if not (directory / name).is_file())
-    if (directory / "events.csv").is_file():
+    wanted = results.NETWORK_FILES if is_whole else ["network.json"]
+    problems.extend(f"{name} is missing" for name in wanted if not (directory / name).is_file())
+    if is_whole and (directory / "events.csv").is_file():
         check_page(directory, problems)
     return found
 

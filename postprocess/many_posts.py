@@ -1,10 +1,10 @@
 """Time and memory of a network, from the drawing to its curve, over the number of posts.
 
-Usage: many_posts.py [--program meniscus] [--sizes 1e3,1e4,1e5] [--threads 2] [--picture many-posts.webp]
+Usage: many_posts.py [--program meniscus] [--sizes 1e3,1e4,1e5] [--threads 2] [--results all|curve] [--picture many-posts.webp]
 
 The posts have radii of 25 to 38 um and lie on a triangular lattice of 100 um, each moved by up to 10 um. A drainage goes from left to right until nothing
-moves any more. Invasion is the time of the events with trapping; the total contains reading the drawing, pictures and tables too. The picture is that of the
-last size.
+moves any more. Invasion is the time of the events with trapping; the total contains reading the drawing too, and with all results pictures, tables and
+permeabilities. The picture is that of the last size.
 """
 
 import argparse
@@ -38,13 +38,13 @@ def drawing(posts: int, to: Path) -> int:
     return row.size
 
 
-def measure(program: str, posts: int, threads: int, picture: Path | None) -> str:
+def measure(program: str, posts: int, more: list[str], picture: Path | None) -> str:
     """A line of the table; the picture of the run is written where one is asked for."""
     with tempfile.TemporaryDirectory() as folder:
         file, out = Path(folder) / "posts.xyr", Path(folder) / "out"
         count = drawing(posts, file)
         start = time.monotonic()
-        options = ["--inlet", "left", "--outlet", "right", "--threads", str(threads), "--out", str(out), "--quiet"]
+        options = ["--inlet", "left", "--outlet", "right", "--out", str(out), "--quiet", *more]
         process = subprocess.Popen([program, "network", str(file), *options], stdout=subprocess.DEVNULL)
         _, status, used = os.wait4(process.pid, 0)
         wall = time.monotonic() - start
@@ -70,6 +70,7 @@ def main() -> None:
     parser.add_argument("--program", default="meniscus")
     parser.add_argument("--sizes", default="1e3,1e4,1e5")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--results", default="all", choices=["all", "curve"])
     parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
     heads = (
@@ -85,8 +86,9 @@ def main() -> None:
     )
     print("| " + " | ".join(heads) + " |")
     print("|---" * len(heads) + "|")
+    more = ["--threads", str(arguments.threads), "--results", arguments.results]
     for size in arguments.sizes.split(","):
-        print(measure(arguments.program, round(float(size)), arguments.threads, arguments.picture), flush=True)
+        print(measure(arguments.program, round(float(size)), more, arguments.picture), flush=True)
 
 
 if __name__ == "__main__":

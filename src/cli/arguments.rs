@@ -15,7 +15,7 @@ use super::run::RunArguments;
 use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
 use meniscus_case::SideName;
-use meniscus_case::network::{FilmModel, RawProcess, RegionExtent};
+use meniscus_case::network::{FilmModel, NetworkResults, RawProcess, RegionExtent};
 use meniscus_core::input::tables::Words;
 
 /// Exit codes, as in the help.
@@ -170,6 +170,9 @@ pub(crate) struct NetworkArguments {
     /// The region of saturations, porosity and relative permeabilities (default pack, where there is a manifold between inlet or outlet and the grains)
     #[arg(long, value_parser = word::<RegionExtent>(), value_name = "REGION")]
     pub(crate) region: Option<RegionExtent>,
+    /// What is found besides events, curve and measures of the displacement (default all)
+    #[arg(long, value_parser = word::<NetworkResults>(), value_name = "RESULTS")]
+    pub(crate) results: Option<NetworkResults>,
     /// Makes opposite sides periodic
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,

@@ -35,6 +35,7 @@ fn options(arguments: &NetworkArguments) -> NetworkOptions {
         trapping: arguments.trapping,
         films: arguments.films,
         region: arguments.region,
+        results: arguments.results,
         periodic: arguments.periodic.map(PeriodicAxes::along).unwrap_or_default(),
         depth: arguments.depth,
     }

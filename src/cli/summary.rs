@@ -5,6 +5,7 @@ use crate::run::execute::Finished;
 use crate::run::numbers::Number;
 use crate::run::report::{Reading, Report, Status, Verdict};
 use crate::run::steady::Steadiness;
+use meniscus_case::network::NetworkResults;
 use meniscus_case::{Case, Model};
 use meniscus_core::solver::Clock;
 
@@ -20,7 +21,11 @@ pub(crate) fn summary(finished: &Finished) -> String {
         Ok(path) => path.display().to_string(),
         Err(error) => format!("none: {error}"),
     };
-    let frames = if matches!(report.case.model, Model::Network(_)) { "regions.pvd" } else { "particles.pvd" };
+    let frames = match &report.case.model {
+        Model::Network(network) if network.results == NetworkResults::Curve => None,
+        Model::Network(_) => Some("regions.pvd"),
+        _ => Some("particles.pvd"),
+    };
     let mut lines = vec![report.case.title.clone(), ending(report)];
     lines.extend(angles(report));
     lines.extend(measures(report));
@@ -28,7 +33,8 @@ pub(crate) fn summary(finished: &Finished) -> String {
     lines.extend(numbers(report));
     lines.extend(report.depth.iter().map(|depth| row("depth", depth)));
     lines.extend(report.warnings.iter().map(|warning| row("WARNING", warning)));
-    lines.extend([row("ParaView", &show(frames)), row("picture", &picture)]);
+    lines.extend(frames.map(|frames| row("ParaView", &show(frames))));
+    lines.push(row("picture", &picture));
     lines.extend(finished.page.iter().map(|page| match page {
         Ok(path) => row("page", &path.display().to_string()),
         Err(too_many) => row("page", &format!("none: {too_many}")),

@@ -2,8 +2,10 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
-use crate::support::program::{assert_code, meniscus};
+use crate::support::program::{assert_code, meniscus, report};
+use crate::support::python::{interpreter, root, run as python};
 
 /// A chip of the repository.
 fn chip() -> String {
@@ -133,4 +135,57 @@ fn two_networks_are_compared_on_one_page() {
     // Both are at their end.
     let again = ["compare", "one.toml", "other.toml", "--out", "both", "--resume"];
     assert_code(&meniscus(folder.path(), &again), 0);
+}
+
+#[test]
+fn a_curve_alone_is_that_of_the_whole_run() {
+    let in_time = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/network/dynamic.toml").display().to_string();
+    let chip = chip();
+    let drained = ["network", &chip, "--inlet", "left", "--outlet", "right", "--depth", "3e-4", "--angle-deg", "20"];
+    for (arguments, option) in
+        [(&drained[..], "--results=curve"), (&["run", &in_time, "--set=expect=[]"], "--set=network.results=\"curve\"")]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let run = |more: &[&str]| assert_code(&meniscus(folder.path(), &[arguments, more].concat()), 0);
+        run(&["--out", "all"]);
+        run(&[option, "--out", "curve"]);
+        let files = |name: &str| {
+            let entries = fs::read_dir(folder.path().join(name)).unwrap();
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
+        };
+        let is_same = |name: &&String| {
+            ["events.csv", "series.csv", "capillary_pressure.csv"].contains(&name.as_str()) || name.ends_with(".svg")
+        };
+        let found = files("curve");
+        let same: Vec<_> = found.iter().filter(is_same).collect();
+        assert!(same.len() >= 3, "{found:?}");
+        for name in same {
+            let read = |folder_name: &str| fs::read(folder.path().join(folder_name).join(name)).unwrap();
+            assert!(read("curve") == read("all"), "{name} differs");
+        }
+        for name in [
+            "pores.csv",
+            "throats.csv",
+            "openpnm.csv",
+            "pores.vtu",
+            "regions.pvd",
+            "interface.pvd",
+            "network.html",
+            "picture.png",
+        ] {
+            assert!(
+                !found.iter().any(|it| it == name) && files("all").iter().any(|it| it == name),
+                "{name}: {found:?}"
+            );
+        }
+        let measures = |name: &str| report(&folder.path().join(name))["measures"].as_object().unwrap().clone();
+        let (all, curve) = (measures("all"), measures("curve"));
+        assert!(curve.iter().all(|(name, measure)| all[name] == *measure), "{curve:?}");
+        assert!(all.contains_key("permeability-x-m2") && !curve.contains_key("permeability-x-m2"));
+        assert!(all.contains_key("median-entry-pressure-Pa") && !curve.contains_key("median-entry-pressure-Pa"));
+        assert!(curve.contains_key("final-wetting-saturation"), "{curve:?}");
+        let mut check = Command::new(interpreter());
+        check.arg(root().join("postprocess/check_output.py")).arg(folder.path().join("curve"));
+        python(&mut check, "the output must keep the contract");
+    }
 }

@@ -3,7 +3,9 @@
 use serde::Deserialize;
 
 use super::fluid::RawInterface;
-use super::network::{FilmModel, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawRegion, RegionExtent};
+use super::network::{
+    FilmModel, NetworkResults, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawRegion, RegionExtent,
+};
 use super::side::SideName;
 use super::wetting::RawWetting;
 use meniscus_wetting::{Wetting, Young};
@@ -37,6 +39,8 @@ pub struct NetworkOptions {
     pub films: Option<FilmModel>,
     /// The region of saturations (default: the pack, where the drawing has manifolds).
     pub region: Option<RegionExtent>,
+    /// What is found besides events, curve and measures of the displacement.
+    pub results: Option<NetworkResults>,
     /// Whether the domain is periodic along x and along y.
     pub periodic: [bool; 2],
     /// Depth of the chip (distance between floor and lid) in m.
@@ -90,6 +94,7 @@ impl NetworkOptions {
             films: self.films,
             region: self.region.map(|extent| RawRegion { extent: Some(extent), ..RawRegion::default() }),
             persistence: self.persistence,
+            results: self.results,
             ..RawNetwork::default()
         }
     }

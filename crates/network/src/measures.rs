@@ -37,6 +37,12 @@ impl Costly {
     /// All of them.
     pub const ALL: Self = Self { permeabilities: true, entry_pressures: true, other_films: true };
 
+    /// All of them, or none where only the curve is wanted.
+    pub(crate) fn of(config: &Configuration) -> Self {
+        let is_whole = config.is_whole();
+        Self { permeabilities: is_whole, entry_pressures: is_whole, other_films: is_whole }
+    }
+
     /// Those of which a name is wanted.
     pub fn wanted(is_wanted: impl Fn(&str) -> bool) -> Self {
         let any = |names: &[&str]| names.iter().any(|name| is_wanted(name));

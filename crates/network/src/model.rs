@@ -7,7 +7,7 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use super::gravity::Gravity;
-use meniscus_case::network::{FilmModel, InletDisc};
+use meniscus_case::network::{FilmModel, InletDisc, NetworkResults};
 use meniscus_case::{SIDES, Side};
 use meniscus_core::math::Bounds;
 use meniscus_core::snapshot::Lines;
@@ -52,11 +52,18 @@ pub struct Configuration {
     pub gravity: Option<Gravity>,
     /// The region of saturations and porosity, if it is not the whole domain.
     pub region: Option<Bounds>,
+    /// What is found besides events, curve and measures of the displacement.
+    pub results: NetworkResults,
     /// What follows from the network alone.
     pub(crate) derived: Arc<Derived>,
 }
 
 impl Configuration {
+    /// Whether all is found, with tables and fields of pores and throats.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.results == NetworkResults::All
+    }
+
     /// Capillary pressure p_n - p_w in Pa during invasion by a phase, at a meniscus of this curvature in the plane (1/m), positive if it bulges
     /// into the wetting phase; NaN without a tension.
     pub fn pressure(&self, invading: FluidPhase, curvature: f64) -> f64 {

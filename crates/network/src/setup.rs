@@ -142,6 +142,7 @@ fn assemble(
         sides: wanted.sides.each(),
         gravity: gravity(wanted, &network, ground.geometry.bounds(), first_invading(wanted)),
         region: wanted.region.map(Region::bounds),
+        results: wanted.results,
         derived: if network.depth == ground.network.depth { Arc::clone(&ground.derived) } else { Arc::default() },
     };
     let periods = config.periods();

@@ -55,6 +55,11 @@ impl NetworkSolver {
         self.model.cycles.as_ref()
     }
 
+    /// The displacement, if all is found of it.
+    fn whole(&self) -> Option<&Cycles> {
+        self.cycles().filter(|_| self.config().is_whole())
+    }
+
     fn count(&self, kind: EventKind) -> f64 {
         let history = self.cycles().map_or(&[][..], Cycles::history);
         history.iter().filter(|entry| entry.kind == kind).count() as f64
@@ -93,12 +98,12 @@ impl Solver for NetworkSolver {
             step: self.steps(),
             particles: Cloud::default(),
             grid: None,
-            interface: self.cycles().map(|cycles| layers::menisci(cycles.menisci())),
+            interface: self.whole().map(|cycles| layers::menisci(cycles.menisci())),
         }
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.model.config.outline.as_ref().clone()
+        outline(self.config())
     }
 
     fn sample(&self) -> Vec<Sample> {
@@ -139,7 +144,7 @@ impl Solver for NetworkSolver {
     }
 
     fn measures(&self, _series: &Series) -> Vec<Measure> {
-        measures::all(&self.model, Costly::ALL)
+        measures::all(&self.model, Costly::of(self.config()))
     }
 
     fn warnings(&self, _: &Series) -> Vec<String> {
@@ -151,10 +156,16 @@ impl Solver for NetworkSolver {
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
+        if !self.config().is_whole() {
+            return Vec::new();
+        }
         vec![layers::regions(&self.model.config, self.cycles().map(Cycles::occupation).as_ref())]
     }
 
     fn region_map(&self) -> Option<RegionMap> {
+        if !self.config().is_whole() {
+            return None;
+        }
         let (config, cycles) = (self.config(), self.cycles());
         let occupation = cycles.map(Cycles::occupation);
         let displaced = cycles.zip(occupation.as_ref());
@@ -163,7 +174,7 @@ impl Solver for NetworkSolver {
     }
 
     fn playback(&self) -> Option<Playback> {
-        self.cycles().map(|cycles| playback::playback(&self.model, cycles))
+        self.whole().map(|cycles| playback::playback(&self.model, cycles))
     }
 
     fn results(&self) -> Results<'_> {
@@ -177,6 +188,9 @@ impl Solver for NetworkSolver {
                     Box::new(move || tables::capillary_pressure(cycles, tension))
                 }),
             );
+        }
+        if !config.is_whole() {
+            return results;
         }
         // Before the others are made, since it takes as much memory as all of them.
         results
@@ -228,8 +242,16 @@ impl Solver for NetworkSolver {
     }
 }
 
+/// The walls for files; none where only the curve is wanted.
+pub(super) fn outline(config: &Configuration) -> Lines<'_> {
+    if config.is_whole() { config.outline.as_ref().clone() } else { Lines::default() }
+}
+
 /// The results at the end, without events.
 pub(super) fn results_with<'a>(model: &'a Model, occupation: Option<Occupation<'a>>) -> Results<'a> {
+    if !model.config.is_whole() {
+        return Results { documents: vec![summary::network_json(model)], ..Results::default() };
+    }
     let occupation = occupation.map(Arc::new);
     let (of_pores, of_throats, of_layer) = (occupation.clone(), occupation.clone(), occupation);
     Results {

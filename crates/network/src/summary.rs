@@ -86,7 +86,8 @@ struct Description<'a> {
     units: &'static str,
     definitions: Definitions,
     half_cycles: Vec<HalfCycleDescription<'a>>,
-    merges: Merges<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    merges: Option<Merges<'a>>,
 }
 
 #[derive(Serialize)]
@@ -172,14 +173,14 @@ fn description(model: &Model) -> Description<'_> {
         units: "SI; the unit is at the end of each column name of pores.csv and throats.csv",
         definitions: DEFINITIONS,
         half_cycles: model.cycles.as_ref().map_or_else(Vec::new, half_cycles),
-        merges: Merges {
+        merges: config.is_whole().then(|| Merges {
             note: MERGES,
             region_pore: &pores.pore_of,
             region_radius_m: network.regions.iter().map(|region| region.radius).collect(),
             region_area_m2: network.regions.iter().map(|region| region.area).collect(),
             throat_regions: network.throats.iter().map(|throat| throat.regions).collect(),
             throat_width_m: network.throats.iter().map(|throat| throat.width).collect(),
-        },
+        }),
     }
 }
 

@@ -17,5 +17,5 @@ pub(super) use pore_network::network;
 pub use pore_network::{NetworkInterface, PoreNetwork};
 pub use region::Region;
 pub(super) use region::pack_between_manifolds;
-pub use table::{Events, FilmModel, InletDisc, RegionExtent};
+pub use table::{Events, FilmModel, InletDisc, NetworkResults, RegionExtent};
 pub use table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawRegion};

@@ -4,7 +4,7 @@ use super::displacement::{NetworkDisplacement, displacement, refuse_other_sides,
 use super::measured::Measured;
 use super::region::{Region, region};
 use super::state::Start;
-use super::table::{InletDisc, RawNetwork, RawNetworkSide, RawNetworkSides, RawOutlet, RawRegion};
+use super::table::{InletDisc, NetworkResults, RawNetwork, RawNetworkSide, RawNetworkSides, RawOutlet, RawRegion};
 use crate::fluid::{Fluid, RawPhases, fluid, tension};
 use crate::side::{SIDES, Side, SideName, Sides};
 use crate::wetting::{self, WettingPatch};
@@ -40,6 +40,8 @@ pub struct PoreNetwork {
     /// Where saturations and the porosity are taken; `None`: in the whole domain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<Region>,
+    /// What is found besides events, curve and measures of the displacement.
+    pub results: NetworkResults,
 }
 
 impl PoreNetwork {
@@ -120,6 +122,7 @@ pub(crate) fn network(
         inlet_disc: inlet_disc?,
         gravity,
         region,
+        results: *raw.results.get_or_insert(NetworkResults::All),
     })
 }
 

@@ -56,6 +56,8 @@ tables! {
         pub gravity: [f64; 2],
         /// Region over which saturations and the porosity are taken; not with `dynamic` (default: the whole domain).
         pub region: RawRegion,
+        /// What is found and written besides events, curve and measures of the displacement (default `all`).
+        pub results: NetworkResults,
     }
 
     /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that crosses its boundary the part inside counts; pores
@@ -119,6 +121,14 @@ checked_tables! {
 }
 
 words! {
+    /// What is found of a network besides events, curve and measures of the displacement.
+    pub enum NetworkResults {
+        /// Tables and VTK files of pores and throats, permeabilities, entry pressures of all throats, and the page.
+        All,
+        /// Nothing: for very many posts.
+        Curve,
+    }
+
     /// Where the defending phase leaves.
     pub enum RawOutlet {
         /// x = min.

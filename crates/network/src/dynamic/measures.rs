@@ -11,7 +11,7 @@ use meniscus_core::table::Table;
 
 /// All measures.
 pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
-    let mut found = of_network(&model.quasi_static, Costly::ALL);
+    let mut found = of_network(&model.quasi_static, Costly::of(&model.quasi_static.config));
     let dynamic = &model.dynamic;
     let terms = dynamic.terms();
     let breakthrough = dynamic.breakthrough();

@@ -9,7 +9,7 @@ use crate::cycles::FluidPhase;
 use crate::displacement::{Division, Element, EventKind};
 use crate::laplacian::FlowError;
 use crate::model::Model;
-use crate::solver::{NetworkSolver, results_with};
+use crate::solver::{NetworkSolver, outline, results_with};
 use crate::{layers, pictures, summary, warnings};
 use meniscus_case::network::Stop;
 use meniscus_core::diagram::{Diagram, RegionMap};
@@ -71,6 +71,10 @@ impl DynamicSolver {
     /// The invading phase.
     pub fn invading(&self) -> FluidPhase {
         self.model.invading
+    }
+
+    fn is_whole(&self) -> bool {
+        self.model.quasi_static.config.is_whole()
     }
 
     fn count(&self, kind: EventKind) -> f64 {
@@ -137,12 +141,12 @@ impl Solver for DynamicSolver {
             step: self.steps(),
             particles: Cloud::default(),
             grid: None,
-            interface: Some(layers::menisci(self.model.dynamic.menisci())),
+            interface: self.is_whole().then(|| layers::menisci(self.model.dynamic.menisci())),
         }
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.model.quasi_static.config.outline.as_ref().clone()
+        outline(&self.model.quasi_static.config)
     }
 
     fn sample(&self) -> Vec<Sample> {
@@ -205,17 +209,23 @@ impl Solver for DynamicSolver {
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
+        if !self.is_whole() {
+            return Vec::new();
+        }
         vec![layers::regions(&self.model.quasi_static.config, Some(&self.model.occupation()))]
     }
 
     fn region_map(&self) -> Option<RegionMap> {
+        if !self.is_whole() {
+            return None;
+        }
         let (occupation, menisci) = (self.model.occupation(), self.model.dynamic.menisci());
         let displaced = (&occupation, menisci, self.model.progress());
         Some(pictures::region_map(&self.model.quasi_static.config, Some(displaced)))
     }
 
     fn playback(&self) -> Option<Playback> {
-        Some(playback::in_time(&self.model))
+        self.is_whole().then(|| playback::in_time(&self.model))
     }
 
     fn results(&self) -> Results<'_> {

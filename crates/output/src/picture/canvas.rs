@@ -11,7 +11,7 @@ use tiny_skia::{
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// Nothing to draw.
-    #[error("there is no particle with a finite position to draw")]
+    #[error("there is nothing to draw")]
     Empty,
     /// A canvas of that size cannot be made.
     #[error("a picture of {width} x {height} pixels cannot be made")]
