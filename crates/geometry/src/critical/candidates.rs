@@ -3,6 +3,8 @@
 //! The samples only select pairs and triples of pieces and starting points; all results computed from them are exact. A sampled triangulation needs no
 //! special cases for unequal discs, arcs or vertices, for which triangulations of centers miss pairs.
 
+use std::collections::BTreeSet;
+
 use delaunator::{Point, triangulate};
 use rayon::prelude::*;
 
@@ -53,6 +55,13 @@ impl Samples {
     /// Samples of all walls; `density` multiplies the number on each piece.
     pub fn new(walls: &Walls, density: &[f64]) -> Self {
         let along = (0..walls.walls.len()).into_par_iter().map(|k| sampled(walls, k, density[k])).collect();
+        Self { along }
+    }
+
+    /// Samples of some of the walls alone.
+    pub fn of(walls: &Walls, density: &[f64], some: &BTreeSet<usize>) -> Self {
+        let mut along = vec![Vec::new(); walls.walls.len()];
+        some.iter().for_each(|&k| along[k] = sampled(walls, k, density[k]));
         Self { along }
     }
 

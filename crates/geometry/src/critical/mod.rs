@@ -75,6 +75,19 @@ impl Unresolved {
         Self::of_pairs(walls, &sorted(pairs), one_of_each(maxima, maximum_key(walls)))
     }
 
+    /// Adds those that samples of some of the walls offer.
+    pub fn add(&mut self, walls: &Walls, samples: &Samples) {
+        let more = Self::of_samples(walls, samples, &[]);
+        // Those found twice go when they are resolved.
+        self.saddles.extend(more.saddles);
+        self.maxima.extend(more.maxima);
+        let (isolated, maxima) = &mut self.isolated;
+        isolated.extend(more.isolated.0);
+        maxima.extend(more.isolated.1);
+        *isolated = one_of_each(std::mem::take(isolated), opposite_key(walls));
+        *maxima = one_of_each(std::mem::take(maxima), maximum_key(walls));
+    }
+
     /// The saddles and maxima between pairs of walls, and the maxima between three.
     fn of_pairs(walls: &Walls, pairs: &[Pair], maxima: Vec<Maximum>) -> Self {
         let of_pair = |(k, pair): (usize, &Pair)| {

@@ -3,7 +3,7 @@
 //! Chords, the segments between the two wall contacts of a throat, cut the pore space into regions that tile it exactly, one around each maximum: along a chord
 //! the distance falls towards both walls at slope one, so it is the watershed between two maxima. The certificate of a network: every region contains exactly
 //! one maximum, regions are simply connected, their areas sum to that of the pore space, and no throat is wider than its pores. If it fails, the walls of the
-//! regions concerned are sampled more densely, at last all their pairs are considered, and extraction is repeated.
+//! regions concerned are sampled more densely, first these alone, then together with all others and with all their pairs considered, and extraction is repeated.
 //!
 //! At a side that is neither wall nor periodic the domain and its regions end with openings. The largest inscribed circle of such a region
 //! may have its center on the side.
@@ -26,7 +26,7 @@ use crate::graph::Network;
 use meniscus_case::SIDES;
 use meniscus_geometry::Geometry;
 use meniscus_geometry::critical::Unresolved;
-use meniscus_geometry::critical::candidates::{Samples, all_pairs};
+use meniscus_geometry::critical::candidates::{Pair, Samples, all_pairs};
 use meniscus_geometry::critical::clusters::Coincident;
 use meniscus_geometry::critical::walls::{Sides, Walls};
 
@@ -66,36 +66,37 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
 /// The network of walls, their samples multiplied by `density`, and by more if the certificate fails.
 fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Network, ExtractError> {
     let mut density = vec![density; walls.walls.len()];
-    let mut further = Vec::new();
-    let (mut round, mut most, mut near) = (0, MOST_SAMPLES, Vec::new());
+    let samples = Samples::new(walls, &density);
+    let most = MOST_SAMPLES.max(2 * samples.count());
+    let mut found = Unresolved::of_samples(walls, &samples, &[]);
+    drop(samples);
+    let mut round = 0;
     loop {
-        let samples = Samples::new(walls, &density);
-        if round == 0 {
-            most = MOST_SAMPLES.max(2 * samples.count());
-        } else if samples.count() > most {
-            return Err(ExtractError::NoCertificate { near });
-        }
-        let found = Unresolved::of_samples(walls, &samples, &further);
         let tried = |coincident: Coincident| {
             let points = found.resolved(walls, coincident);
             attempt(walls, &points, &Loops::trace(walls, &points.saddles, perimeter))
         };
         let first = tried(Coincident::Clusters);
         let is_certified = matches!(first, Attempt::Certified(_));
-        match if is_certified { first } else { tried(Coincident::Points).or(first) } {
+        let (images, near) = match if is_certified { first } else { tried(Coincident::Points).or(first) } {
             Attempt::Certified(network) => return Ok(network),
-            Attempt::Failed { near, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { near }),
-            Attempt::Failed { images, near: failed } => {
-                near = failed;
-                let walls_of: BTreeSet<usize> = images.iter().flatten().map(|image| image.0).collect();
-                walls_of.into_iter().for_each(|wall| density[wall] *= 2.0);
-                round += 1;
-                if round >= ALL_PAIRS_FROM {
-                    let few = images.iter().filter(|images| images.len() <= FEW);
-                    further = few.flat_map(|images| all_pairs(walls, images)).collect();
-                }
-            }
+            Attempt::Failed { images, near } => (images, near),
+        };
+        round += 1;
+        let walls_of: BTreeSet<usize> = images.iter().flatten().map(|image| image.0).collect();
+        walls_of.iter().for_each(|&wall| density[wall] *= 2.0);
+        if round < ALL_PAIRS_FROM {
+            // As few regions fail, the walls around them are enough.
+            found.add(walls, &Samples::of(walls, &density, &walls_of));
+            continue;
         }
+        let samples = Samples::new(walls, &density);
+        if round > ROUNDS || samples.count() > most {
+            return Err(ExtractError::NoCertificate { near });
+        }
+        let few = images.iter().filter(|images| images.len() <= FEW);
+        let further: Vec<Pair> = few.flat_map(|images| all_pairs(walls, images)).collect();
+        found = Unresolved::of_samples(walls, &samples, &further);
     }
 }
 
