@@ -153,13 +153,13 @@ fn a_run_that_is_steady_ends_and_says_so_and_one_that_is_not_says_what_changes()
 #[test]
 fn a_run_that_blows_up_says_when_and_where_and_keeps_its_last_good_state() {
     let folder = folder_with_small_case();
-    // Blown along the floor at nearly the largest speed that is accepted, some particles get past it in a light gas.
+    // Blown along the floor in a light gas, some particles get past it; whether they do depends on the last digits of every step.
     let arguments = [
         "run",
         "drop.toml",
         "--out",
         "out",
-        "--set=sph.initial.velocity.uniform=[48.0, -10.0]",
+        "--set=sph.initial.velocity.uniform=[60.0, -11.0]",
         "--set=sph.surface-force.csf={}",
         "--set=sph.phases.non-wetting.density=1.0",
     ];

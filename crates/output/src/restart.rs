@@ -15,7 +15,7 @@ use super::journal::Mark;
 /// First bytes of every file of this kind.
 const MAGIC: &[u8; 8] = b"meniscus";
 /// Version of the layout of the file.
-const FORMAT_VERSION: u32 = 3;
+const FORMAT_VERSION: u32 = 4;
 /// The remedy for every damaged state.
 const START_AGAIN: &str = "put the file back from a copy, or start the run again with another --out DIR";
 /// Bytes of the checksum.

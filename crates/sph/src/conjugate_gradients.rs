@@ -76,6 +76,15 @@ pub struct Convergence {
     pub iterations: usize,
     /// |b − M x|/|b|.
     pub residual: f64,
+    /// The largest residual that was asked for.
+    pub tolerance: f64,
+}
+
+impl Convergence {
+    /// Whether the residual is within the tolerance.
+    pub fn is_reached(&self) -> bool {
+        self.residual <= self.tolerance
+    }
 }
 
 /// Stopping criterion of the iteration.
@@ -103,7 +112,7 @@ pub fn conjugate_gradients<T: Unknown>(
     let size = dot(b, b).sqrt();
     if size == 0.0 {
         x.fill(T::ZERO);
-        return Convergence { iterations: 0, residual: 0.0 };
+        return Convergence { iterations: 0, residual: 0.0, tolerance };
     }
     let [mut r, mut z, mut p, mut q, mut before] = [const { Vec::new() }; 5].map(|_: Vec<T>| vec![T::ZERO; n]);
     matrix.residual(b, x, &mut r);
@@ -122,13 +131,13 @@ pub fn conjugate_gradients<T: Unknown>(
                     x.copy_from_slice(&best);
                     residual = last_fresh;
                 }
-                return Convergence { iterations, residual };
+                return Convergence { iterations, residual, tolerance };
             }
             last_fresh = residual;
             best = x.to_vec();
         }
         if residual <= tolerance || iterations == most || !residual.is_finite() {
-            return Convergence { iterations, residual };
+            return Convergence { iterations, residual, tolerance };
         }
         precondition(&r, &mut z);
         let next = dot(&z, &r);

@@ -180,7 +180,7 @@ impl Packing<'_> {
             spacing: self.spacing,
         };
         let mut potential = vec![0.0; n];
-        let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
+        let system = System { before: &[], b: &mut source, x: &mut potential, tolerance: TOLERANCE };
         solve.solve(&unknowns, &volume[..n], &mut [system]);
         let down = pressure_gradient::descent(pairs, &volume, &ones, &images.field(potential), fluids);
         moves.iter_mut().zip(&down).for_each(|(m, down)| m.by += down);

@@ -49,8 +49,12 @@ pub struct Particles {
     pub position: Vec<Vec2>,
     /// Velocity in m/s; on walls that of the wall.
     pub velocity: Vec<Vec2>,
-    /// Pressure in Pa; also the initial guess of the next solve.
+    /// Pressure in Pa.
     pub pressure: Vec<f64>,
+    /// Change of the pressure in Pa over the last step, from which the next solve extrapolates its initial guess.
+    pub pressure_change: Vec<f64>,
+    /// The pressure in m that responds to a unit gradient through each periodic side with a given flow: the initial guess of its next solve.
+    pub responses: Vec<Vec<f64>>,
     /// Connected component of the pore space: each has its own pressure constant.
     pub part: Vec<u32>,
 }
@@ -94,6 +98,8 @@ impl Particles {
         self.position.push(position);
         self.velocity.push(Vec2::zeros());
         self.pressure.push(0.0);
+        self.pressure_change.push(0.0);
+        self.responses.iter_mut().for_each(|response| response.push(0.0));
         self.part.push(0);
     }
 
@@ -104,6 +110,8 @@ impl Particles {
         self.position.push(position);
         self.velocity.push(self.velocity[a]);
         self.pressure.push(self.pressure[a]);
+        self.pressure_change.push(self.pressure_change[a]);
+        self.responses.iter_mut().for_each(|response| response.push(response[a]));
         self.part.push(self.part[a]);
     }
 
@@ -123,6 +131,8 @@ impl Particles {
         pick(&mut self.position, order);
         pick(&mut self.velocity, order);
         pick(&mut self.pressure, order);
+        pick(&mut self.pressure_change, order);
+        self.responses.iter_mut().for_each(|response| pick(response, order));
         pick(&mut self.part, order);
     }
 }

@@ -47,8 +47,8 @@ impl<'a, F> View<'a, F> {
     }
 
     /// The error of a `system` that is not solved to its `tolerance`.
-    pub(crate) fn not_converged(&self, system: &'static str, found: Convergence, tolerance: f64) -> SolverError {
-        let (Convergence { residual, iterations }, time, step) = (found, self.state.time, self.state.steps);
+    pub(crate) fn not_converged(&self, system: &'static str, found: Convergence) -> SolverError {
+        let (Convergence { residual, iterations, tolerance }, time, step) = (found, self.state.time, self.state.steps);
         SolverError::NotConverged { system, residual, tolerance, iterations, time, step }
     }
 

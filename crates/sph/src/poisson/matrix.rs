@@ -40,8 +40,14 @@ impl Matrix {
     /// Σ_b A_ab x_b.
     #[inline]
     pub(crate) fn coupled<T: Unknown>(&self, a: usize, x: &[T]) -> T {
+        self.coupled_by(a, |b| x[b])
+    }
+
+    /// Σ_b A_ab x(b).
+    #[inline]
+    pub(crate) fn coupled_by<T: Unknown>(&self, a: usize, x: impl Fn(usize) -> T) -> T {
         let row = self.start[a]..self.start[a + 1];
-        weighted_sum(&self.column[row.clone()], &self.coupling[row], x)
+        sum_of(&self.column[row.clone()], &self.coupling[row], x)
     }
 
     /// Memory in bytes, including a pattern shared with the pairs.
@@ -50,10 +56,16 @@ impl Matrix {
     }
 }
 
-/// Σ_k w_k x_{b_k}, as four independent partial sums: in a single one each addition would wait for the one before.
+/// Σ_k w_k x_{b_k}.
 #[inline]
 pub fn weighted_sum<T: Unknown>(columns: &[u32], weights: &[f32], x: &[T]) -> T {
-    let term = |(&b, &w): (&u32, &f32)| x[b as usize] * f64::from(w);
+    sum_of(columns, weights, |b| x[b])
+}
+
+/// Σ_k w_k x(b_k), as four independent partial sums: in a single one each addition would wait for the one before.
+#[inline]
+fn sum_of<T: Unknown>(columns: &[u32], weights: &[f32], x: impl Fn(usize) -> T) -> T {
+    let term = |(&b, &w): (&u32, &f32)| x(b as usize) * f64::from(w);
     let mut sums = [T::ZERO; LANES];
     let (columns, weights) = (columns.chunks_exact(LANES), weights.chunks_exact(LANES));
     let rest = columns.remainder().iter().zip(weights.remainder());

@@ -265,9 +265,7 @@ fn forward_from_zero<T: Unknown>(matrix: &Matrix, r: &[T], z: &mut [T]) {
         let first = block * BLOCK;
         for i in 0..z.len() {
             let a = first + i;
-            let known = matrix
-                .row(a)
-                .fold(T::ZERO, |sum, (b, coupling)| sum + *z.get(b.wrapping_sub(first)).unwrap_or(&T::ZERO) * coupling);
+            let known = matrix.coupled_by(a, |b| *z.get(b.wrapping_sub(first)).unwrap_or(&T::ZERO));
             z[i] = (r[a] + known) / matrix.diagonal[a];
         }
     });
@@ -279,9 +277,7 @@ fn backward<T: Unknown>(matrix: &Matrix, r: &[T], old: &[T], z: &mut [T]) {
         let first = block * BLOCK;
         for i in (0..z.len()).rev() {
             let a = first + i;
-            let coupled = matrix
-                .row(a)
-                .fold(T::ZERO, |sum, (b, coupling)| sum + *z.get(b.wrapping_sub(first)).unwrap_or(&old[b]) * coupling);
+            let coupled = matrix.coupled_by(a, |b| *z.get(b.wrapping_sub(first)).unwrap_or(&old[b]));
             z[i] = (r[a] + coupled) / matrix.diagonal[a];
         }
     });

@@ -10,6 +10,12 @@ use meniscus_core::math::Vec2;
 /// Systems up to this size are solved directly; for larger ones the iteration is faster (benches/poisson.rs).
 const SMALL: usize = 300;
 
+/// Largest residual over that of the solution of the step before: far below the error of the time step, which is of the order of the change itself.
+const CHANGE: f64 = 0.01;
+
+/// Largest factor on the tolerance of a solution that changes.
+const MOST: f64 = 100.0;
+
 /// The matrix of the pressure equation, and the points of its unknowns for the multigrid.
 pub struct Unknowns<'a> {
     /// M.
@@ -32,8 +38,35 @@ pub struct System<'a> {
     pub b: &'a mut [f64],
     /// Initial guess, then the solution.
     pub x: &'a mut [f64],
-    /// Stopping criterion.
+    /// The solution of the step before: the error may be [`CHANGE`] of the change since then. Empty where there is none.
+    pub before: &'a [f64],
+    /// Stopping criterion; of a solution that changes the largest residual is at most [`MOST`] times as large.
     pub tolerance: Tolerance,
+}
+
+impl System<'_> {
+    /// The tolerance for the change since the step before, and the better initial guess in x: that given, or the solution of that step.
+    fn prepare(&mut self, matrix: &Matrix) -> Tolerance {
+        let mut r = vec![0.0; self.b.len()];
+        let mut relative = |x: &[f64]| {
+            matrix.residual(self.b, x, &mut r);
+            norm(&r) / norm(self.b)
+        };
+        if self.before.is_empty() {
+            return self.tolerance;
+        }
+        let (of_before, of_guess) = (relative(self.before), relative(self.x));
+        if !(of_guess < of_before) {
+            self.x.copy_from_slice(self.before);
+        }
+        let residual = self.tolerance.residual;
+        Tolerance { residual: (CHANGE * of_before).clamp(residual, MOST * residual), ..self.tolerance }
+    }
+}
+
+/// |v|.
+fn norm(v: &[f64]) -> f64 {
+    total(v.len(), |i| v[i] * v[i]).sqrt()
 }
 
 /// Solver of the pressure Poisson equation, reused from step to step.
@@ -70,16 +103,16 @@ impl PressureSolve {
         }
         let mut r = vec![0.0; b.len()];
         unknowns.matrix.residual(b, x, &mut r);
-        let norm = |v: &[f64]| total(v.len(), |i| v[i] * v[i]).sqrt();
         let residual = if norm(b) > 0.0 { norm(&r) / norm(b) } else { 0.0 };
-        Convergence { iterations: 1, residual }
+        Convergence { iterations: 1, residual, tolerance: system.tolerance.residual }
     }
 
     fn iterate(&mut self, unknowns: &Unknowns, systems: &mut [System]) -> Vec<Convergence> {
         let multigrid = Multigrid::new(unknowns.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
         self.bytes[1] = multigrid.bytes();
-        let solve = |System { b, x, tolerance }: &mut System| {
-            conjugate_gradients(unknowns.matrix, b, x, *tolerance, |r, z| {
+        let solve = |system: &mut System| {
+            let tolerance = system.prepare(unknowns.matrix);
+            conjugate_gradients(unknowns.matrix, system.b, system.x, tolerance, |r, z| {
                 multigrid.precondition(unknowns.matrix, r, z);
             })
         };

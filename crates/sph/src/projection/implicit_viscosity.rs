@@ -24,7 +24,7 @@ use meniscus_case::ViscousTerm;
 use meniscus_core::math::{Mat2, Vec2};
 
 /// Largest relative residual of the change of the velocity.
-pub(super) const RESIDUAL: f64 = 1e-6;
+const RESIDUAL: f64 = 1e-6;
 
 /// Maximum number of iterations; a typical solve takes about ten, with steps a thousand times the explicit limit some hundreds.
 const ITERATIONS: usize = 2000;

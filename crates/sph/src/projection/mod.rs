@@ -86,8 +86,11 @@ impl Flow {
         state.last_dt = dt;
         state.lines = std::mem::take(&mut self.lines);
         state.gone = state.gone.or_else(|| gone(&state.lines, method.spacing));
-        let Projected { mut pressure, viscous_pressure, .. } = corrected.projected;
+        let Projected { mut pressure, viscous_pressure, responses, .. } = corrected.projected;
         pressure.iter_mut().zip(&viscous_pressure).for_each(|(p, by)| *p += by);
+        let change = pressure.iter().zip(&state.particles.pressure).map(|(now, before)| now - before);
+        state.particles.pressure_change = change.collect();
+        state.particles.responses = responses.into_iter().map(|response| response.potential).collect();
         self.take_up_pressure(pressure, &corrected.gradient_changes);
         if !self.config.open.sides.is_empty() {
             let (sides, state) = (&self.config.open.sides, &mut self.state);

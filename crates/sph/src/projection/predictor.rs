@@ -1,6 +1,5 @@
 //! The predictor: all forces except the pressure [Huber2013, Eq. 25].
 
-use super::implicit_viscosity;
 use super::intermediate::{Damped, Predicted};
 use crate::fields::Fields;
 use crate::method::PressureGradient;
@@ -120,8 +119,8 @@ impl View<'_, Fields> {
         let by_pressure = self.pressure_acceleration(&self.state.particles.pressure);
         let net = values(acceleration.len(), |a| acceleration[a] + by_pressure[a]);
         let (change, found) = matrix.change(&net, dt);
-        if !(found.residual <= implicit_viscosity::RESIDUAL) {
-            return Err(self.not_converged("the viscous step", found, implicit_viscosity::RESIDUAL));
+        if !found.is_reached() {
+            return Err(self.not_converged("the viscous step", found));
         }
         each(acceleration, |a| change[a] / dt - by_pressure[a]);
         Ok(Damped { by_pressure, excess, weight: matrix.weight(dt), iterations: found.iterations })

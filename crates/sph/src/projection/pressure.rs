@@ -38,8 +38,25 @@ struct PressureEquation {
     prescribed: Prescribed,
     /// Initial guess of the pressure in Pa.
     guess: Vec<f64>,
-    /// Further right-hand sides, with zero instead of the prescribed pressures.
-    others: Vec<(Vec<f64>, Tolerance)>,
+    /// The pressure of the step before in Pa.
+    before: Vec<f64>,
+    /// Further systems with the same matrix, with zero instead of the prescribed pressures.
+    others: Vec<Further>,
+}
+
+/// A further right-hand side of the pressure equation.
+struct Further {
+    b: Vec<f64>,
+    /// Initial guess, then the solution.
+    x: Vec<f64>,
+    tolerance: Tolerance,
+}
+
+impl Further {
+    /// Without an initial guess.
+    fn new(b: Vec<f64>, tolerance: Tolerance) -> Self {
+        Self { x: vec![0.0; b.len()], b, tolerance }
+    }
 }
 
 impl View<'_, Fields> {
@@ -78,13 +95,21 @@ impl View<'_, Fields> {
                 let error = if self.config.is_near_fluid(position[a]) { self.density_error(a) } else { 0.0 };
                 method.numerics.density_error_shifting * f.volume[a] * error
             });
-            others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
+            others.push(Further::new(error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
         let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::inward).collect();
-        others.extend(axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), tolerance)));
-        let guess = self.state.particles.pressure.clone();
-        let equation = PressureEquation { matrix, b, prescribed, guess, others };
+        let particles = &self.state.particles;
+        others.extend(axes.iter().enumerate().map(|(i, &axis)| {
+            let b = self.right_side_of_gradient(axis, &matrix);
+            let x = particles.responses.get(i).map_or_else(|| vec![0.0; n], Vec::clone);
+            Further { b, x, tolerance }
+        }));
+        let before = particles.pressure.clone();
+        // Never farther than over the last step: the change has noise, too.
+        let ahead = if self.state.last_dt > 0.0 { (dt / self.state.last_dt).min(1.0) } else { 0.0 };
+        let guess = before.iter().zip(&particles.pressure_change).map(|(p, change)| p + ahead * change).collect();
+        let equation = PressureEquation { matrix, b, prescribed, guess, before, others };
         let (pressure, mut found) = self.solve(equation, solve, work)?;
         let potentials = found.split_off(found.len() - axes.len());
         let responses = axes.iter().zip(potentials).map(|(&axis, potential)| self.response(axis, potential)).collect();
@@ -105,12 +130,13 @@ impl View<'_, Fields> {
         let matrix = self.assembled();
         let (sides, method) = (&self.config.open.sides, &self.config.method);
         let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::inward).collect();
-        let others = axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), method.tolerance)).collect();
+        let further = |&axis| Further::new(self.right_side_of_gradient(axis, &matrix), method.tolerance);
+        let others = axes.iter().map(further).collect();
         let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, method.kernel.h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
         let guess = vec![0.0; self.state.particles.len()];
-        let equation = PressureEquation { matrix, b, prescribed, guess, others };
+        let equation = PressureEquation { matrix, b, prescribed, guess, before: Vec::new(), others };
         let (potential, found) = self.solve(equation, solve, work)?;
         let responses = axes.iter().zip(found).map(|(&axis, potential)| self.response(axis, potential)).collect();
         Ok((self.down(potential), responses))
@@ -130,7 +156,7 @@ impl View<'_, Fields> {
         solve: &mut PressureSolve,
         work: &mut Work,
     ) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
-        let PressureEquation { mut matrix, mut b, prescribed, guess: mut p, mut others } = equation;
+        let PressureEquation { mut matrix, mut b, prescribed, guess: mut p, mut before, mut others } = equation;
         let (fluids, tolerance) = (self.state.particles.fluids, self.config.method.tolerance);
         let given = |a: usize| prescribed.of(a, fluids);
         let mut kind = kinds(&self.config.method, &self.fields.bulk.density[..self.state.particles.len()]);
@@ -139,29 +165,34 @@ impl View<'_, Fields> {
         for a in self.state.particles.buffer().filter(|&a| given(a).is_some()) {
             has_dirichlet[self.state.particles.part[a] as usize] = true;
             kind[a] = DIRICHLET;
-            others.iter_mut().for_each(|(right, _)| right[a] = 0.0);
+            others.iter_mut().for_each(|other| (other.b[a], other.x[a]) = (0.0, 0.0));
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.config.method.spacing);
         let unknowns =
             Unknowns { matrix: &matrix, position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
-        p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
+        for p in [&mut p, &mut before] {
+            p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
+        }
         let volume = &self.fields.bulk.volume[..p.len()];
-        let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
-        let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
-        let others = others.iter_mut().zip(&mut found);
-        systems.extend(others.map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
+        let mut systems = vec![System { b: &mut b, x: &mut p, before: &before, tolerance }];
+        systems.extend(others.iter_mut().map(|Further { b, x, tolerance }| System {
+            b,
+            x,
+            before: &[],
+            tolerance: *tolerance,
+        }));
         let solved = solve.solve(&unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
         work.last_iterations = convergence.iterations;
         work.iterations += solved.iter().map(|solved| solved.iterations as u64).sum::<u64>();
         work.residual = convergence.residual;
-        if !(convergence.residual <= tolerance.residual) {
-            return Err(self.not_converged("the pressure equation", convergence, tolerance.residual));
+        if !convergence.is_reached() {
+            return Err(self.not_converged("the pressure equation", convergence));
         }
-        Ok((p, found))
+        Ok((p, others.into_iter().map(|other| other.x).collect()))
     }
 
     /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), 0 deep in the buffers.

@@ -102,10 +102,49 @@ fn small_systems_are_solved_directly() {
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
     let wanted = direct(&matrix, &b);
     let tolerance = Tolerance { residual: 1e-6, iterations: 300 };
-    let found = solver.solve(&unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, tolerance }])[0];
+    let found =
+        solver.solve(&unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, before: &[], tolerance }])[0];
     assert_eq!(found.iterations, 1);
     assert!(found.residual < 1e-12, "{}", found.residual);
     assert!(difference(&p, &wanted) < 1e-10);
+}
+
+#[test]
+fn a_solve_ends_at_a_hundredth_of_the_change_since_the_step_before() {
+    let cloud = Cloud::new(24, true, 0.3);
+    let density = stripe(&cloud, 10.0);
+    let matrix = pressure_matrix(&cloud, &density);
+    let n = matrix.rows();
+    let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images, |_, _| true));
+    let unknowns = Unknowns {
+        matrix: &matrix,
+        position: &cloud.points,
+        kind: &kind,
+        part: &part,
+        has_dirichlet: &[],
+        spacing: cloud.spacing,
+    };
+    let tolerance = Tolerance { residual: 1e-6, iterations: 300 };
+    let b = right_side(n);
+    let exact = direct(&matrix, &b);
+    // The residual of the pressure of the step before is its distance from that of this step, as both are multiples.
+    for (change, wanted) in [(1e-3, 1e-5), (1e-7, 1e-6), (0.5, 1e-4)] {
+        let before: Vec<f64> = exact.iter().map(|p| (1.0 - change) * p).collect();
+        for guess in [before.clone(), vec![1e3; n], exact.iter().map(|p| -3.0 * p).collect()] {
+            let (mut b, mut p) = (b.clone(), guess);
+            let mut solver = PressureSolve::default();
+            let system = System { b: &mut b, x: &mut p, before: &before, tolerance };
+            let found = solver.solve(&unknowns, &cloud.volume, &mut [system])[0];
+            assert!((found.tolerance / wanted - 1.0).abs() < 1e-5, "{change}: {:e}", found.tolerance);
+            assert!(found.is_reached(), "{found:?}");
+            // Guesses that are worse than the step before are not used.
+            assert!(found.iterations <= if change < 1e-6 { 0 } else { 8 }, "{change}: {}", found.iterations);
+        }
+        let (mut b, mut p) = (b.clone(), exact.clone());
+        let system = System { b: &mut b, x: &mut p, before: &before, tolerance };
+        let found = PressureSolve::default().solve(&unknowns, &cloud.volume, &mut [system])[0];
+        assert_eq!(found.iterations, 0, "a better guess is used");
+    }
 }
 
 /// [Notay2010]
