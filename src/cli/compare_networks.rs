@@ -14,7 +14,6 @@ use crate::run::compare::networks::{RUNS, mode_in, write};
 use crate::run::execute::{Finished, Job, Mode, execute};
 use crate::run::folder;
 use crate::run::source::Source;
-use meniscus_core::input::Problem;
 use meniscus_core::playback::Playback;
 
 /// Where both run, and how.
@@ -61,8 +60,10 @@ fn run(source: &Source, folder: &Path, arguments: &Runs<'_>) -> Result<(Finished
     pool(arguments.threads)?.install(|| {
         let mut solver = built(source, mode)?;
         if solver.playback().is_none() {
-            let problem = Problem::of_text("network", &CompareError::NoNetwork.to_string());
-            return Err(source.refused_for(vec![problem]).into());
+            let is_curve = source.case.is_curve_alone();
+            let error = if is_curve { CompareError::NoPage } else { CompareError::NoNetwork };
+            let problems = error.problems().map_or_else(Vec::new, |(_, problems)| problems);
+            return Err(source.refused_for(problems).into());
         }
         let job = Job { case: &source.case, resolved: &source.resolved, folder: folder.to_path_buf(), mode };
         let mut display = ProgressDisplay::new();

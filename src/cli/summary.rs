@@ -5,7 +5,6 @@ use crate::run::execute::Finished;
 use crate::run::numbers::Number;
 use crate::run::report::{Reading, Report, Status, Verdict};
 use crate::run::steady::Steadiness;
-use meniscus_case::network::NetworkResults;
 use meniscus_case::{Case, Model};
 use meniscus_core::solver::Clock;
 
@@ -21,11 +20,8 @@ pub(crate) fn summary(finished: &Finished) -> String {
         Ok(path) => path.display().to_string(),
         Err(error) => format!("none: {error}"),
     };
-    let frames = match &report.case.model {
-        Model::Network(network) if network.results == NetworkResults::Curve => None,
-        Model::Network(_) => Some("regions.pvd"),
-        _ => Some("particles.pvd"),
-    };
+    let frames = if matches!(report.case.model, Model::Network(_)) { "regions.pvd" } else { "particles.pvd" };
+    let frames = Some(frames).filter(|_| !report.case.is_curve_alone());
     let mut lines = vec![report.case.title.clone(), ending(report)];
     lines.extend(angles(report));
     lines.extend(measures(report));

@@ -117,7 +117,7 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
 
 /// The text of the final state of a displacement.
 pub(crate) fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
-    let mut solver = super::setup::build(case)?;
+    let mut solver = super::setup::build(&case.with_all_results())?;
     while !solver.is_done() {
         solver.step(f64::INFINITY)?;
     }

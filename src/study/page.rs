@@ -39,6 +39,8 @@ pub(crate) struct Content<'a> {
     pub(crate) diagrams: &'a [Vec<String>],
     /// For each run, whether its folder has a page on which its displacement is played.
     pub(crate) pages: &'a [bool],
+    /// For each run, whether it has a picture.
+    pub(crate) pictures: &'a [bool],
     /// Capillary pressure over saturation of both models as SVG, one per complete run that was compared with a network.
     pub(crate) comparisons: &'a [(&'a RunResult, String)],
     /// The statistics of the samples, if there are any.
@@ -156,11 +158,13 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
 }
 
 fn push_pictures(html: &mut String, content: &Content<'_>) {
+    let runs = content.results.iter().zip(content.pages).zip(content.pictures);
+    let drawn: Vec<_> = runs.filter(|(_, has_picture)| **has_picture).map(|(run, _)| run).collect();
+    if drawn.is_empty() {
+        return;
+    }
     html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
-    for (result, &has_page) in content.results.iter().zip(content.pages) {
-        if result.state.report().is_none() {
-            continue;
-        }
+    for (result, &has_page) in drawn {
         let (name, caption) = (escaped(&result.run.name), caption(result, content.wording));
         let play = if has_page { format!(": {}", link(&name, "played")) } else { String::new() };
         *html += &html::figure_with_more(&format!("runs/{name}/picture.png"), &caption, &play);

@@ -68,9 +68,10 @@ fn diagrams_of(folder: &Path, state: &RunState) -> Vec<String> {
     found
 }
 
-/// Whether a complete run in a folder has a page on which its displacement is played.
-fn has_page(folder: &Path, state: &RunState) -> bool {
-    state.report().is_some() && folder.join(network_page::NAME).is_file()
+/// Of which runs that are complete there is a file.
+fn with_file(results: &[RunResult], folder: &StudyFolder, name: &str) -> Vec<bool> {
+    let has = |it: &RunResult| it.state.report().is_some() && folder.run(&it.run.name).join(name).is_file();
+    results.iter().map(has).collect()
 }
 
 /// The curves of each complete comparison; those without a pressure have none.
@@ -167,8 +168,7 @@ pub(crate) fn report_of(
     }
     let diagrams: Vec<Vec<String>> =
         results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.state)).collect();
-    let pages: Vec<bool> =
-        results.iter().map(|result| has_page(&folder.run(&result.run.name), &result.state)).collect();
+    let [pages, pictures] = [network_page::NAME, "picture.png"].map(|name| with_file(&results, folder, name));
     let comparisons = comparisons(study, &results, folder);
     let pressures = pressures(study, &results, folder, &wording)?;
     if let Some(text) = &pressures {
@@ -179,6 +179,7 @@ pub(crate) fn report_of(
         pressures: pressures.as_deref(),
         diagrams: &diagrams,
         pages: &pages,
+        pictures: &pictures,
         study,
         results: &results,
         table: &table,

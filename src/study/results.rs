@@ -105,7 +105,7 @@ pub(crate) fn run_state(folder: &Path, resolved: &str) -> RunState {
 /// Whether nothing is left to do for a run in its folder. The picture is drawn after the report, so a kill may have prevented it; the files of a comparison are
 /// written before its report.
 pub(crate) fn is_complete(folder: &Path, planned: &PlannedRun) -> bool {
-    let is_drawn = planned.network.is_some() || folder.join("picture.png").exists();
+    let is_drawn = planned.network.is_some() || planned.case.is_curve_alone() || folder.join("picture.png").exists();
     is_drawn && run_state(folder, &planned.resolved).report().is_some()
 }
 

@@ -187,5 +187,7 @@ fn a_curve_alone_is_that_of_the_whole_run() {
         let mut check = Command::new(interpreter());
         check.arg(root().join("postprocess/check_output.py")).arg(folder.path().join("curve"));
         python(&mut check, "the output must keep the contract");
+        // A movie computes the displacement again.
+        assert_code(&meniscus(folder.path(), &["movie", "curve"]), 0);
     }
 }

@@ -1,7 +1,7 @@
 //! A case file as a whole: its table, the checked case, and the case as one file.
 
 use super::film::{RawThinFilm, ThinFilm};
-use super::network::{PoreNetwork, RawNetwork};
+use super::network::{NetworkResults, PoreNetwork, RawNetwork};
 use super::output::{Expectation, Output, RawExpectation, RawOutput, RawTime};
 use super::shapes::RawGeometry;
 use super::side::Sides;
@@ -58,6 +58,20 @@ pub struct Case {
 }
 
 impl Case {
+    /// Whether only the curve of a network is wanted, without fields and pictures.
+    pub fn is_curve_alone(&self) -> bool {
+        matches!(&self.model, Model::Network(network) if network.results == NetworkResults::Curve)
+    }
+
+    /// The same with all results of its network.
+    pub fn with_all_results(&self) -> Self {
+        let mut case = self.clone();
+        if let Model::Network(network) = &mut case.model {
+            network.results = NetworkResults::All;
+        }
+        case
+    }
+
     /// The dimension of its pressures, volumes and rates, in one line; `None` for a film on a wall.
     pub fn depth_text(&self) -> Option<String> {
         match (&self.model, self.depth) {

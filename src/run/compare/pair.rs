@@ -63,6 +63,9 @@ pub(crate) enum CompareError {
     /// The first case is not a network with a displacement.
     #[error("expected a network with a displacement; give the case [network] with an inlet")]
     NoNetwork,
+    /// The page has nothing to play.
+    #[error("a comparison of two networks shows their pages; leave [network.results] out")]
+    NoPage,
     /// The network counts only a part of the pore space.
     #[error("a comparison is at equal saturations of the whole pore space; leave [network.region] out")]
     Region,
@@ -105,6 +108,7 @@ impl CompareError {
         let direct = |key: &str| Some((Of::Direct, vec![Problem::of_text(key, &self.to_string())]));
         match self {
             Self::NoNetwork => Some((Of::Network, vec![Problem::of_text("network", &self.to_string())])),
+            Self::NoPage => Some((Of::Network, vec![Problem::of_text("network.results", &self.to_string())])),
             Self::Region => Some((Of::Network, vec![Problem::of_text("network.region", &self.to_string())])),
             Self::NoDirect => direct("sph"),
             Self::OtherGeometry(_) => direct("geometry"),

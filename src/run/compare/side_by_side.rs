@@ -10,7 +10,7 @@ use super::{direct, network, picture, rank};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
 use meniscus_case::network::state::NetworkState;
-use meniscus_case::network::{FilmModel, PoreNetwork};
+use meniscus_case::network::{FilmModel, NetworkResults, PoreNetwork};
 use meniscus_case::{Case, FluidPhase, Model};
 use meniscus_core::solver::Solver;
 use meniscus_geometry::elements::Elements;
@@ -84,7 +84,7 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
 
 /// The same network without a displacement in time: it has the same elements.
 fn comparable(wanted: &PoreNetwork) -> PoreNetwork {
-    let mut wanted = wanted.clone();
+    let mut wanted = PoreNetwork { results: NetworkResults::All, ..wanted.clone() };
     if let Some(displacement) = &mut wanted.displacement {
         displacement.dynamic = None;
         displacement.films = Some(FilmModel::None);

@@ -31,7 +31,7 @@ pub(crate) fn movie(folder: &Path, progress: &mut dyn FnMut(f64)) -> Result<(Mov
         if network.displacement.is_none() {
             return Err(MovieFailure::NoDisplacement(folder.to_path_buf()));
         }
-        return network::movie(&source.case, written, progress);
+        return network::movie(&source.case.with_all_results(), written, progress);
     }
     if ended.is_none() && folder.join("regions.pvd").exists() {
         return Err(MovieFailure::NoReport(folder.to_path_buf()));
