@@ -1,13 +1,14 @@
 //! Classification of rings as outer ones and holes, by containment, never by orientation alone.
 //!
 //! A ring bounds the filled area if the fill rule differs on its two sides. Containment is that of a point well inside the ring, in rings of larger area:
-//! rings must not cross, but may touch and coincide along lines, wherever they start. A vertical ray from that point is tested against edges sorted by x, so
-//! that only edges near in x contribute to the cost.
+//! rings must not cross, but may touch and coincide along lines, wherever they start. Only the points of rings whose boxes lie in that of the ring are looked
+//! at, sorted by x, so that a vertical ray from each is tested against the edges above and below it alone.
 
 use crate::import::drawing::{FillRule, Ring};
 use meniscus_core::math::{Bounds, Vec2};
 use meniscus_geometry::body::bulged_ring;
 use meniscus_geometry::curve::Curve;
+use meniscus_geometry::tree::Tree;
 
 /// Relative tolerance of areas and of sides of boxes.
 const SAME: f64 = 1e-9;
@@ -65,17 +66,21 @@ pub(crate) fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
     let boxes: Vec<Bounds> = rings.iter().map(Ring::bounds).collect();
     let areas: Vec<f64> = rings.iter().map(|ring| ring.area().abs()).collect();
     let can_contain = |j: usize, i: usize| areas[j] > areas[i] * (1.0 + SAME) && encloses(&boxes[j], &boxes[i]);
-    let mut starts: Vec<(Vec2, usize)> =
-        rings.iter().enumerate().filter_map(|(i, ring)| Some((inner_point(ring, &boxes[i])?, i))).collect();
-    starts.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.1.cmp(&b.1)));
+    let starts: Vec<Option<Vec2>> = rings.iter().zip(&boxes).map(|(ring, bounds)| inner_point(ring, bounds)).collect();
+    let tree = Tree::over(boxes.iter().copied());
     for (j, ring) in rings.iter().enumerate() {
+        let inside = tree.near(widened(&boxes[j])).filter(|&i| i != j && can_contain(j, i));
+        let mut inside: Vec<(Vec2, usize)> = inside.filter_map(|i| Some((starts[i]?, i))).collect();
+        if inside.is_empty() {
+            continue;
+        }
+        inside.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.1.cmp(&b.1)));
         // Parity of the edges of this ring below each start, toggled edge by edge.
         let mut toggled: Vec<usize> = Vec::new();
         for span in spans_of(ring) {
-            let from = starts.partition_point(|start| start.0.x < span.x.0);
-            let near = starts[from..].iter().take_while(|start| start.0.x < span.x.1);
-            let above = near.filter(|(p, i)| *i != j && can_contain(j, *i) && span.height(p.x) < p.y);
-            toggled.extend(above.map(|(_, i)| *i));
+            let from = inside.partition_point(|start| start.0.x < span.x.0);
+            let near = inside[from..].iter().take_while(|start| start.0.x < span.x.1);
+            toggled.extend(near.filter(|(p, _)| span.height(p.x) < p.y).map(|(_, i)| *i));
         }
         toggled.sort_unstable();
         for same in toggled.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1) {
@@ -85,8 +90,12 @@ pub(crate) fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
     around
 }
 
+fn widened(bounds: &Bounds) -> Bounds {
+    bounds.grown(SAME * bounds.size().max())
+}
+
 fn encloses(outer: &Bounds, inner: &Bounds) -> bool {
-    let outer = outer.grown(SAME * outer.size().max());
+    let outer = widened(outer);
     (0..2).all(|i| outer.min[i] <= inner.min[i] && inner.max[i] <= outer.max[i])
 }
 
