@@ -10,7 +10,7 @@ from . import _meniscus
 from ._given import case_source, given, listed, listener, refused
 from .errors import SolverError, warn
 from .results import Result
-from .typing import Case, Drawing, Films, Inside, Path, Periodic, Process, Progress, Region, Side, Unit
+from .typing import Case, Drawing, Films, Inside, Path, Periodic, Process, Progress, Region, Results, Side, Unit
 
 AXES: dict[Periodic, list[bool]] = {"x": [True, False], "y": [False, True], "xy": [True, True]}
 
@@ -71,6 +71,7 @@ def network(
     trapping: bool | None = None,
     films: Films | None = None,
     region: Region | None = None,
+    results: Results | None = None,
     periodic: Periodic | None = None,
     depth: float | None = None,
     persistence: float | None = None,
@@ -108,6 +109,7 @@ def network(
         trapping: whether a defending region without a path to the outlet is trapped (default yes).
         films: how films in the corners of a chip are connected: ``none``, ``rings`` (default where corners hold any) or ``joined``.
         region: the region of saturations and relative permeabilities: ``pack`` (default where the drawing has a manifold) or ``domain``.
+        results: ``all`` (default), or ``curve`` for events, curve and measures of the displacement alone, as for very many pores.
         periodic: periodic directions: ``x``, ``y`` or ``xy``.
         depth: distance between floor and lid in m; that of the file if None, and without one all results are per meter of depth.
         persistence: persistence ratio above which two maxima of the wall distance count as one pore, 0.5 to 1.
@@ -131,7 +133,7 @@ def network(
         threads: as in `run`.
 
     Returns:
-        The result, with ``pores``, ``throats`` and ``events``.
+        The result, with ``events``, and unless ``results="curve"`` with ``pores`` and ``throats``.
 
     Raises:
         CaseError: the drawing or a parameter is invalid.
@@ -168,6 +170,7 @@ def network(
         "trapping": trapping,
         "films": films,
         "region": region,
+        "results": results,
         "periodic": None if periodic is None else AXES[periodic],
         "depth": depth,
         "persistence": persistence,

@@ -18,6 +18,8 @@ Films = Literal["none", "rings", "joined"]
 """How films in the corners of a chip are connected."""
 Region = Literal["pack", "domain"]
 """The region of saturations, porosity and relative permeabilities."""
+Results = Literal["all", "curve"]
+"""What a displacement in a network yields besides events, curve and measures."""
 Periodic = Literal["x", "y", "xy"]
 """Periodic directions."""
 Unit = Literal["m", "cm", "mm", "um", "nm", "in", "mil", "ft", "pt", "px"]

@@ -7,6 +7,7 @@ from importlib.resources import files
 from itertools import pairwise
 from typing import get_args
 
+import numpy as np
 import pytest
 from conftest import DROP, DROP_SET, ROOT
 
@@ -42,7 +43,8 @@ def test_a_study_warns_once_of_all_its_runs(study):
 def test_words_are_those_of_the_program(program):
     text = subprocess.run([program, "network", "--help"], capture_output=True, text=True, check=True).stdout
     options = dict(re.findall(r"^ +--([a-z-]+) (.*?)(?=^ +(?:-\w, )?--|\Z)", text, re.MULTILINE | re.DOTALL))
-    of_values = {"inlet": words.Side, "outlet": words.Side, "process": words.Process, "films": words.Films, "region": words.Region, "periodic": words.Periodic}
+    of_values = {"inlet": words.Side, "outlet": words.Side, "process": words.Process, "films": words.Films, "region": words.Region}
+    of_values |= {"results": words.Results, "periodic": words.Periodic}
     for option, kind in of_values.items():
         assert re.findall(r"^ +- (\w+):", options[option], re.MULTILINE) == list(get_args(kind)), option
     for option in ("frame", "nested"):
@@ -50,6 +52,14 @@ def test_words_are_those_of_the_program(program):
     units = re.search(r"Unit of the drawing: (.*)", options["unit"]).group(1)
     assert re.split(r", | or ", units) == list(get_args(words.Unit))
     assert (files("meniscus") / "py.typed").is_file()
+
+
+def test_the_curve_alone_has_the_events_of_all_results():
+    curve, all_results = (meniscus.network(CHIP, **ENDS, depth=5e-5, results=results) for results in ("curve", "all"))
+    assert set(curve.tables) == {"events", "capillary_pressure"} < set(all_results.tables)
+    for name in curve.tables:
+        for head, column in curve.tables[name].items():
+            np.testing.assert_array_equal(column, all_results.tables[name][head], err_msg=f"{name}: {head}")
 
 
 def test_one_layer_may_stand_alone():

@@ -9,6 +9,7 @@ use crate::curve::{ClosestPoint, Curve};
 use crate::intersect::intersections;
 use crate::tree::Tree;
 use meniscus_core::math::{Bounds, Vec2};
+use rayon::prelude::*;
 
 /// Up to this many pieces a plain loop is faster than the tree.
 const TREE_FROM: usize = 16;
@@ -114,19 +115,17 @@ impl<'a> Bodies<'a> {
 /// The surface of the union of bodies.
 pub fn union(bodies: &[&Body], tolerance: f64) -> Vec<Piece> {
     let all = Bodies::new(bodies, tolerance);
-    let mut pieces = Vec::new();
-    for (i, body) in bodies.iter().enumerate() {
-        for curve in body.curves.iter() {
-            for part in all.split(curve, Some(i)) {
-                let (middle, normal) = (part.point(0.5), part.normal(0.5));
-                let mut others = all.around(middle).filter(|&j| j != i);
-                if others.all(|j| stays(bodies[j].locate(middle, tolerance), normal, i < j)) {
-                    pieces.push(Piece { curve: part, shape: body.shape });
-                }
-            }
-        }
-    }
-    pieces
+    let is_kept = |i: usize, part: &Curve| {
+        let (middle, normal) = (part.point(0.5), part.normal(0.5));
+        let mut others = all.around(middle).filter(|&j| j != i);
+        others.all(|j| stays(bodies[j].locate(middle, tolerance), normal, i < j))
+    };
+    let of_body = |(i, body): (usize, &&Body)| {
+        let parts = body.curves.iter().flat_map(|curve| all.split(curve, Some(i)));
+        let kept = parts.filter(|part| is_kept(i, part));
+        kept.map(|curve| Piece { curve, shape: body.shape }).collect::<Vec<_>>()
+    };
+    bodies.par_iter().enumerate().flat_map_iter(of_body).collect()
 }
 
 /// The surface of the solid outside all `pores`, united with the solid `walls`.

@@ -188,6 +188,16 @@ impl Curve {
         bounds
     }
 
+    /// A box around the curve: of an arc that of its whole circle, which takes less time than [`Self::bounds`].
+    pub fn enclosing_box(&self) -> Bounds {
+        match *self {
+            Self::Segment { a, b } => Bounds { min: a.inf(&b), max: a.sup(&b) },
+            Self::Arc { center, radius, .. } => {
+                Bounds { min: center.add_scalar(-radius), max: center.add_scalar(radius) }
+            }
+        }
+    }
+
     /// The piece between two parameters; `to` may exceed 1 on a full circle.
     pub fn part(&self, from: f64, to: f64) -> Self {
         match *self {
@@ -277,6 +287,16 @@ pub(crate) mod work {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_box_of_a_whole_circle_holds_each_of_its_arcs() {
+        let circle = |start, sweep| Curve::Arc { center: Vec2::new(1.0, -2.0), radius: 0.7, start, sweep };
+        let arcs = (0..24).map(|k| circle(f64::from(k) * 0.3, f64::from(k - 12) * 0.5));
+        for curve in arcs.chain([Curve::Segment { a: Vec2::new(2.0, 1.0), b: Vec2::new(-1.0, 3.0) }]) {
+            let whole = curve.enclosing_box().grown(1e-15);
+            assert_eq!(whole.united(&curve.bounds()), whole, "{curve:?}");
+        }
+    }
 
     #[test]
     fn an_arc_from_a_tangent_ends_where_it_should() {

@@ -41,11 +41,14 @@ fn curved(outer: Vec<[f64; 2]>) -> ShapeSpec {
 
 /// All quantities of the command `geometry` except throats.
 fn measured(spec: &GeometrySpec) -> u64 {
-    work::of(|| {
+    let all = || {
         let geometry = Geometry::new(spec).unwrap().with_sides([true, false], [false, false, true, true]);
         assert!(geometry.porosity().value > 0.0 && geometry.specific_surface() > 0.0);
         assert!(!geometry.outline().lines.is_empty());
-    })
+    };
+    // The work of one thread is counted.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    alone.install(|| work::of(all))
 }
 
 fn assert_grows_slowly(name: &str, of: impl Fn(usize) -> GeometrySpec) {

@@ -7,6 +7,7 @@ use crate::boundary::{Piece, chains, followers, split};
 use crate::curve::Curve;
 use crate::solid::Geometry;
 use meniscus_core::snapshot::{Field, Lines, Values};
+use rayon::prelude::*;
 
 /// Angle between neighboring vertices of a finely drawn arc, in rad: 1 degree, chords within 4e-5 of the radius.
 const FINE_ANGLE: f64 = std::f64::consts::PI / 180.0;
@@ -55,15 +56,13 @@ impl Geometry {
     /// The parts of the surface within the domain or on its sides.
     pub(crate) fn visible_pieces(&self) -> Vec<Piece> {
         let frame = Body::of_box(u32::MAX, self.bounds());
-        let mut visible = Vec::new();
-        for piece in &self.boundary.pieces {
-            for curve in split(&piece.curve, frame.curves.iter(), self.tolerance()) {
-                if frame.locate(curve.point(0.5), self.tolerance()) != Location::Out {
-                    visible.push(Piece { curve, shape: piece.shape });
-                }
-            }
-        }
-        visible
+        let is_visible = |curve: &Curve| frame.locate(curve.point(0.5), self.tolerance()) != Location::Out;
+        let parts = |piece: &Piece| {
+            let shape = piece.shape;
+            let parts = split(&piece.curve, frame.curves.iter(), self.tolerance()).into_iter();
+            parts.filter(is_visible).map(move |curve| Piece { curve, shape })
+        };
+        self.boundary.pieces.par_iter().flat_map_iter(parts).collect()
     }
 }
 

@@ -6,12 +6,13 @@
 use crate::body::Body;
 use crate::boundary::{Boundary, Nearest, clip_body, complement, union};
 use crate::curve::Curve;
-use crate::spec::{GeometrySpec, SolidSide};
+use crate::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::surface;
 use crate::tree::Tree;
 use crate::weld::welded;
 use meniscus_core::input::problem::Problem;
 use meniscus_core::math::{Bounds, FNV1A_BASIS, Vec2, fnv1a};
+use rayon::prelude::*;
 
 /// Lengths below this fraction of the domain's larger side count as zero at intersections.
 const TOLERANCE: f64 = 1e-9;
@@ -105,15 +106,23 @@ impl Geometry {
     /// # Errors
     /// [`GeometryError::Invalid`] with all problems found.
     pub fn new(spec: &GeometrySpec) -> Result<Self, GeometryError> {
-        let problems = spec.problems();
-        if problems.is_empty() { Ok(Self::unchecked(spec)) } else { Err(GeometryError::Invalid(problems)) }
+        let problems = spec.problems_of_parts();
+        if !problems.is_empty() {
+            return Err(GeometryError::Invalid(problems));
+        }
+        let geometry = Self::unchecked(spec);
+        match spec.problem_of_pore(&geometry) {
+            Some(problem) => Err(GeometryError::Invalid(vec![problem])),
+            None => Ok(geometry),
+        }
     }
 
     /// The geometry of a specification whose sizes are known to be valid.
     pub fn unchecked(spec: &GeometrySpec) -> Self {
         let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
         let shapes = welded(&spec.shapes, domain);
-        let shapes = shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, domain)).collect();
+        let bodies = |(i, shape): (usize, &ShapeSpec)| Body::of(shape, i as u32, domain);
+        let shapes = shapes.par_iter().enumerate().flat_map_iter(bodies).collect();
         Self {
             domain,
             side: spec.solid,
@@ -200,7 +209,7 @@ impl Geometry {
 
     fn rebuilt(mut self) -> Self {
         let tolerance = self.tolerance();
-        self.bodies = self.distinct().into_iter().flat_map(|body| self.images(body)).collect();
+        self.bodies = self.distinct().into_par_iter().flat_map_iter(|body| self.images(body)).collect();
         self.tree = Tree::over(self.bodies.iter().map(|body| body.bounds));
         self.walls = self.side_walls();
         let (bodies, walls): (Vec<&Body>, Vec<&Body>) = (self.bodies.iter().collect(), self.walls.iter().collect());

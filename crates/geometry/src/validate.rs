@@ -8,10 +8,11 @@ use crate::curve::{Curve, cross};
 use crate::extent::{self, Numbers};
 use crate::pack::PackError;
 use crate::rings::{RingFault, faults};
-use crate::solid::Geometry;
+use crate::solid::{Geometry, GeometryError};
 use crate::spec::{CurvedPolygon, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use meniscus_core::input::problem::Problem;
 use meniscus_core::math::{Bounds, Vec2};
+use rayon::prelude::*;
 
 /// An arc of a larger bulge is a full circle minus a few millionths: its center is lost to rounding.
 const LARGEST_BULGE: f64 = 1e6;
@@ -22,14 +23,35 @@ const NO_PORE: f64 = 1e-9;
 impl GeometrySpec {
     /// All problems of the domain and the shapes; paths as in a shape file, such as `shapes[2].disc.radius`.
     pub fn problems(&self) -> Vec<Problem> {
-        let mut problems = self.domain_problems();
-        for (i, shape) in self.shapes.iter().enumerate() {
-            problems.extend(shape.problems_in(self, &format!("shapes[{i}]")));
+        match Geometry::new(self) {
+            Ok(_) => Vec::new(),
+            Err(GeometryError::Invalid(problems)) => problems,
         }
+    }
+
+    /// The problems of the domain and of each shape, before the solids are united.
+    pub(crate) fn problems_of_parts(&self) -> Vec<Problem> {
+        let mut problems = self.domain_problems();
+        let of_shape = |(i, shape): (usize, &ShapeSpec)| shape.problems_in(self, &format!("shapes[{i}]"));
+        problems.par_extend(self.shapes.par_iter().enumerate().flat_map_iter(of_shape));
         if problems.is_empty() {
             problems.extend(self.position_problems());
         }
         problems
+    }
+
+    /// The problem of a geometry without a pore.
+    pub(crate) fn problem_of_pore(&self, geometry: &Geometry) -> Option<Problem> {
+        if !(geometry.porosity().value < NO_PORE) {
+            return None;
+        }
+        let help = match self.solid {
+            SolidSide::Inside => {
+                "shrink or remove shapes; if the shapes are the pore, set `solid = \"outside\"`, or `invert` for a drawing"
+            }
+            SolidSide::Outside => "with `solid = \"outside\"` the shapes are the pore: add one that fluid can fill",
+        };
+        Some(Problem::new("shapes", "the domain is wholly solid: there is no pore left", help))
     }
 
     fn domain_problems(&self) -> Vec<Problem> {
@@ -55,29 +77,20 @@ impl GeometrySpec {
 
     fn position_problems(&self) -> Vec<Problem> {
         let domain = Bounds { min: Vec2::from(self.min), max: Vec2::from(self.max) };
-        let mut found = Vec::new();
-        for (shape, i) in self.shapes.iter().zip(0..) {
-            if !Body::of(shape, i, domain).iter().any(|body| reaches(body, domain)) {
-                found.push(Problem::new(
+        let of_shape = |(i, shape): (usize, &ShapeSpec)| {
+            let is_within = Body::of(shape, i as u32, domain).iter().any(|body| reaches(body, domain));
+            (!is_within).then(|| {
+                Problem::new(
                     format!("shapes[{i}].{}", shape.key()),
                     format!(
                         "the shape lies wholly outside of the domain, which spans ({:e}, {:e}) to ({:e}, {:e}) m",
                         domain.min.x, domain.min.y, domain.max.x, domain.max.y
                     ),
                     "move the shape, enlarge the domain by `min` and `max`, or remove the shape; are all lengths in m?",
-                ));
-            }
-        }
-        if found.is_empty() && Geometry::unchecked(self).porosity().value < NO_PORE {
-            let help = match self.solid {
-                SolidSide::Inside => {
-                    "shrink or remove shapes; if the shapes are the pore, set `solid = \"outside\"`, or `invert` for a drawing"
-                }
-                SolidSide::Outside => "with `solid = \"outside\"` the shapes are the pore: add one that fluid can fill",
-            };
-            found.push(Problem::new("shapes", "the domain is wholly solid: there is no pore left", help));
-        }
-        found
+                )
+            })
+        };
+        self.shapes.par_iter().enumerate().filter_map(of_shape).collect()
     }
 }
 

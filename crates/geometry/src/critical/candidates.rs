@@ -191,7 +191,7 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
 }
 
 /// All items in order; each block is freed once it is copied.
-fn joined<T>(blocks: Vec<Vec<T>>) -> Vec<T> {
+pub(super) fn joined<T>(blocks: Vec<Vec<T>>) -> Vec<T> {
     let mut all = Vec::with_capacity(blocks.iter().map(Vec::len).sum());
     blocks.into_iter().for_each(|block| all.extend(block));
     all

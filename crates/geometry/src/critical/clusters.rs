@@ -6,7 +6,7 @@
 //! conditioned: 1 minus the number of arcs on which the distance increases outwards. The cluster is one maximum (index 1), one saddle (−1), or no critical
 //! point (0): three walls in less than half a circle. So the numbers of maxima and saddles always agree, whatever the rounding.
 
-use crate::critical::candidates::Triple;
+use crate::critical::candidates::{Triple, joined};
 use crate::critical::level::{Kind, decided};
 use crate::critical::maxima::{self, Maximum, largest_gap, maximum};
 use crate::critical::opposite::{Opposite, slack};
@@ -14,6 +14,7 @@ use crate::critical::shift::Shift;
 use crate::critical::walls::Walls;
 use crate::curve::{cross, unit};
 use meniscus_core::math::{Vec2, root};
+use rayon::prelude::*;
 
 /// Treatment of critical points that coincide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +32,9 @@ pub(crate) const COINCIDENT: f64 = 1e-4;
 /// Maxima whose radii differ by less than this fraction are equally large.
 const AS_LARGE: f64 = 1e-9;
 
+/// Clusters that are looked at together.
+const BLOCK: usize = 1024;
+
 /// Contacts around a maximum that leave no gap of more than half a circle minus this angle in rad: no saddle is near.
 const SURROUNDS: f64 = 0.1;
 
@@ -41,19 +45,23 @@ pub(super) fn resolve(
     maxima: Vec<Maximum>,
     coincident: Coincident,
 ) -> (Vec<Opposite>, Vec<Maximum>) {
-    let mut found = (Vec::new(), Vec::new());
     let members: Vec<Member> =
         opposites.into_iter().map(Member::Opposite).chain(maxima.into_iter().map(Member::Maximum)).collect();
-    for cluster in clusters(walls, members) {
-        let index = if coincident == Coincident::Clusters { cluster.index(walls) } else { None };
-        match index {
-            Some(1..) => found.1.extend(cluster.maximum(walls)),
-            Some(0) => {}
-            Some(_) => found.0.extend(cluster.saddle()),
-            None => cluster.undecided(walls, &mut found),
+    let of_block = |block: &[Cluster]| {
+        let mut found = (Vec::new(), Vec::new());
+        for cluster in block {
+            let index = if coincident == Coincident::Clusters { cluster.index(walls) } else { None };
+            match index {
+                Some(1..) => found.1.extend(cluster.maximum(walls)),
+                Some(0) => {}
+                Some(_) => found.0.extend(cluster.saddle()),
+                None => cluster.undecided(walls, &mut found),
+            }
         }
-    }
-    found
+        found
+    };
+    let (saddles, maxima): (Vec<_>, Vec<_>) = clusters(walls, members).par_chunks(BLOCK).map(of_block).unzip();
+    (joined(saddles), joined(maxima))
 }
 
 enum Member {
@@ -90,7 +98,7 @@ struct Cluster {
 fn clusters(walls: &Walls, members: Vec<Member>) -> Vec<Cluster> {
     let centers: Vec<Vec2> = members.iter().map(|member| walls.folded(member.center())).collect();
     let mut order: Vec<usize> = (0..members.len()).collect();
-    order.sort_by(|&a, &b| centers[a].x.total_cmp(&centers[b].x).then(a.cmp(&b)));
+    order.par_sort_by(|&a, &b| centers[a].x.total_cmp(&centers[b].x).then(a.cmp(&b)));
     let mut parent: Vec<usize> = (0..members.len()).collect();
     for (k, &a) in order.iter().enumerate() {
         let near = COINCIDENT * members[a].distance();

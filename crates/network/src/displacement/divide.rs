@@ -200,15 +200,21 @@ fn do_cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
 pub(super) fn holds_segment(curves: &[Curve], first: usize, p: Vec2, q: Vec2) -> bool {
     // Fraction of the segment at both ends that may meet its own walls.
     const AT_ENDS: f64 = 1e-6;
+    // Fraction of the segment within which a curve meets it.
+    const WITHIN: f64 = 1e-9;
     let segment = Curve::Segment { a: p, b: q };
     let length = segment.length();
     if !(length > 0.0) {
         return false;
     }
+    let near = segment.enclosing_box().grown(2.0 * WITHIN * length);
     let mut parameters = Vec::new();
     for curve in curves[first..].iter().chain(&curves[..first]) {
+        if !near.overlaps(&curve.enclosing_box()) {
+            continue;
+        }
         parameters.clear();
-        intersections(&segment, curve, 1e-9 * length, &mut parameters);
+        intersections(&segment, curve, WITHIN * length, &mut parameters);
         if parameters.iter().any(|u| (AT_ENDS..=1.0 - AT_ENDS).contains(u)) {
             return false;
         }

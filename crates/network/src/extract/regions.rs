@@ -12,6 +12,7 @@ use meniscus_geometry::critical::opposite::SAME_DIRECTION;
 use meniscus_geometry::critical::shift::{Shift, minus, plus};
 use meniscus_geometry::critical::slope::curvature;
 use meniscus_geometry::critical::walls::{Contact, Walls};
+use rayon::prelude::*;
 
 /// The result of extraction from given critical points.
 pub(super) enum Attempt {
@@ -33,6 +34,9 @@ impl Attempt {
     }
 }
 
+/// Regions that are built together.
+const BLOCK: usize = 1 << 16;
+
 /// Relative tolerance of equal radii and widths.
 const SAME: f64 = 1e-7;
 
@@ -41,12 +45,16 @@ pub(super) fn attempt(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> 
     let owned = maxima_of(walls, points, loops);
     let mut network = Network { throats: throats(walls, points), ..Network::default() };
     let mut failed = Vec::new();
-    for (number, (ring, maxima)) in loops.loops.iter().zip(&owned).enumerate() {
-        let region = build(walls, points, ring, number, maxima, &mut network);
-        let is_good = region.as_ref().is_some_and(|region| is_certified(walls, region, maxima.len()));
-        match region {
-            Some(region) if is_good => network.regions.push(region),
-            _ => failed.push(number),
+    for (block, first) in loops.loops.chunks(BLOCK).zip((0..).step_by(BLOCK)) {
+        let of_loop = |(ring, maxima): (&Loop, &Vec<Owned>)| {
+            build(walls, points, ring, maxima).filter(|built| is_certified(walls, &built.region, maxima.len()))
+        };
+        let built: Vec<Option<Built>> = block.par_iter().zip(&owned[first..]).map(of_loop).collect();
+        for (number, built) in (first..).zip(built) {
+            match built {
+                Some(built) => built.join(number, &mut network),
+                None => failed.push(number),
+            }
         }
     }
     if !failed.is_empty() {
@@ -116,15 +124,41 @@ fn contact_curvature(walls: &Walls, contact: &Contact) -> f64 {
     if turns { f64::INFINITY } else { curvature(&a).max(curvature(&b)) }
 }
 
+/// A region with what it adds to its network.
+struct Built {
+    region: Region,
+    /// Its openings, which are numbered from zero in its edges.
+    openings: Vec<Opening>,
+    /// The throat of each chord, its end, and where in m the chord lies in the frame of the region.
+    chords: Vec<(usize, usize, Vec2)>,
+}
+
+impl Built {
+    /// Adds the region as that of a number.
+    fn join(mut self, number: usize, network: &mut Network) {
+        for (index, end, offset) in self.chords {
+            let throat = &mut network.throats[index];
+            throat.regions[end] = number;
+            // `contacts` and `shift` are complete once both regions have been added.
+            if end == 0 {
+                throat.contacts = throat.contacts.map(|contact| contact + offset);
+                throat.shift -= offset;
+            } else {
+                throat.shift += offset;
+            }
+        }
+        for edge in &mut self.region.edges {
+            if let Edge::Opening { opening, .. } = edge {
+                *opening += network.openings.len();
+            }
+        }
+        network.openings.extend(self.openings.into_iter().map(|opening| Opening { region: number, ..opening }));
+        network.regions.push(self.region);
+    }
+}
+
 /// The region of a loop; `None` if the loop is not closed or has neither maximum nor opening.
-fn build(
-    walls: &Walls,
-    points: &CriticalPoints,
-    ring: &Loop,
-    number: usize,
-    maxima: &[Owned],
-    network: &mut Network,
-) -> Option<Region> {
+fn build(walls: &Walls, points: &CriticalPoints, ring: &Loop, maxima: &[Owned]) -> Option<Built> {
     if ring.winding != [0, 0] {
         return None;
     }
@@ -142,7 +176,7 @@ fn build(
     let by = |shift: Shift| minus(shift, frame);
     let mut moments = Moments::about(center);
     let mut wall_length = 0.0;
-    let mut edges = Vec::new();
+    let (mut edges, mut openings, mut chords) = (Vec::new(), Vec::new(), Vec::new());
     let mut stretch: Option<Vec<WallPiece>> = None;
     for step in &ring.steps {
         match *step {
@@ -162,14 +196,7 @@ fn build(
                 moments.straight(from, to);
                 edges.push(Edge::Wall(stretch.take().unwrap_or_default().into()));
                 edges.push(Edge::Throat { throat, end, from, to });
-                network.throats[throat].regions[end] = number;
-                // `contacts` and `shift` are complete once both regions have been processed.
-                if end == 0 {
-                    network.throats[throat].contacts = [from, to];
-                    network.throats[throat].shift -= offset;
-                } else {
-                    network.throats[throat].shift += offset;
-                }
+                chords.push((throat, end, offset));
             }
             Step::Side { part, shift } => {
                 let offset = walls.offset(by(shift));
@@ -178,8 +205,8 @@ fn build(
                 if let Some(pieces) = stretch.take() {
                     edges.push(Edge::Wall(pieces.into()));
                 }
-                edges.push(Edge::Opening { opening: network.openings.len(), from, to });
-                network.openings.push(Opening { side: part.side, ends: [from, to], region: number });
+                edges.push(Edge::Opening { opening: openings.len(), from, to });
+                openings.push(Opening { side: part.side, ends: [from, to], region: usize::MAX });
             }
         }
     }
@@ -192,7 +219,8 @@ fn build(
     }
     edges.shrink_to_fit();
     let moments = moments.closed();
-    Some(Region { center, radius, edges, area: -moments.area, wall_length, centroid: moments.centroid() })
+    let region = Region { center, radius, edges, area: -moments.area, wall_length, centroid: moments.centroid() };
+    Some(Built { region, openings, chords })
 }
 
 /// The point on the openings of a loop farthest from the walls, in the frame of the loop, and its distance in m.

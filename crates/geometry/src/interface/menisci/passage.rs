@@ -110,11 +110,12 @@ impl Passage {
     /// both at their contact angles, then with its contacts at their last positions. The line is an open side with the pore on its right.
     pub fn reach(&self, line: &Curve) -> Option<Meniscus> {
         let obstacle = Obstacle::new(&[*line], self.origin, self.scale);
-        let mut legs = self.path.iter().chain(&self.beyond);
-        if let Some((contacts, k)) = legs.find_map(|leg| obstacle.first_contacts(&self.walls, leg)) {
+        let mut legs = self.path.iter().chain(&self.beyond).map(|leg| self.walls.up_to_half_turn(leg));
+        if let Some((contacts, k)) = legs.find_map(|leg| obstacle.first_contacts(&self.walls, &leg)) {
             return Some(self.meniscus(&Station { curvature: k, ..self.walls.station(contacts) }));
         }
-        let last = self.beyond.last().or(self.path.last()).map(|leg| leg.end).or(self.highest)?;
+        let last = self.beyond.last().or(self.path.last()).map(|leg| self.walls.up_to_half_turn(leg).end);
+        let last = last.or(self.highest)?;
         let last = self.meniscus(&last);
         last.grown_to(line.point(0.0), line.normal(0.5)).or(Some(last))
     }

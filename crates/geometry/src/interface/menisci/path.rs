@@ -83,7 +83,7 @@ impl Walls {
         Circle::through(piece.point(s), piece.inward(s), station.curvature)
     }
 
-    /// All menisci that can be reached from the chord, in the order of the advance.
+    /// All menisci that can be reached from the chord, in the order of the advance. The last leg may go on beyond a half turn.
     pub(crate) fn path(&self, chord: (usize, usize)) -> Vec<Leg> {
         let Some(start) = self.start(chord) else { return Vec::new() };
         let mut path = self.follow(start, Sense::Backward);
@@ -167,15 +167,19 @@ impl Walls {
             }
             let mut last = Station { contacts: cell.contacts, ..now };
             for station in inner.into_iter().chain([exit]) {
+                let leg = Leg { start: last, end: station };
+                let turn = self.turn(&leg);
                 // Beyond half a turn the curvature of the arc would be infinite.
-                if (last.bend + self.change_of_bend(&last, &station)).abs() > PI {
+                if turn.abs() > PI {
                     if sense == Sense::Forward {
-                        path.push(self.before_infinity(Leg { start: last, end: station }));
+                        // Towards a half turn ahead the curvature falls: the throat is passed, and few ask where that turn is.
+                        let falls = turn > 0.0 && last.curvature > 0.0;
+                        path.push(if falls { leg } else { self.before_infinity(leg) });
                     }
                     return path;
                 }
                 path.push(match sense {
-                    Sense::Forward => Leg { start: last, end: station },
+                    Sense::Forward => leg,
                     Sense::Backward => Leg { start: station, end: last },
                 });
                 last = station;
@@ -185,12 +189,22 @@ impl Walls {
         path
     }
 
+    /// The bend at the end of a leg without whole turns taken off.
+    fn turn(&self, leg: &Leg) -> f64 {
+        leg.start.bend + self.change_of_bend(&leg.start, &leg.end)
+    }
+
+    /// A leg up to a half turn, if it goes on.
+    pub(crate) fn up_to_half_turn(&self, leg: &Leg) -> Leg {
+        if self.turn(leg).abs() > PI { self.before_infinity(*leg) } else { *leg }
+    }
+
     /// The part of a leg in which arcs turn by less than half a turn, within 1e-6.
     fn before_infinity(&self, leg: Leg) -> Leg {
         const TURN: f64 = PI * (1.0 - 1e-6);
         let bend = |share: f64| {
             let station = self.station(self.share(&leg, share));
-            leg.start.bend + self.change_of_bend(&leg.start, &station)
+            self.turn(&Leg { end: station, ..leg })
         };
         // A double has a 53-bit significand.
         let [low, _] = halved([0.0, 1.0], 53, |share| bend(share).abs() < TURN);
