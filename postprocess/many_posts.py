@@ -1,10 +1,11 @@
 """Time and memory of a network, from the drawing to its curve, over the number of posts.
 
-Usage: many_posts.py [--program meniscus] [--sizes 1e3,1e4,1e5] [--threads 2] [--results all|curve] [--picture many-posts.webp]
+Usage: many_posts.py [--program meniscus] [--sizes 1e3,1e4,1e5] [--threads 2] [--results all|curve] [--depth 5e-5]
+       [--picture many-posts.webp]
 
 The posts have radii of 25 to 38 um and lie on a triangular lattice of 100 um, each moved by up to 10 um. A drainage goes from left to right until nothing
 moves any more. Invasion is the time of the events with trapping; the total contains reading the drawing too, and with all results pictures, tables and
-permeabilities. The picture is that of the last size.
+permeabilities. With a depth in m there are films of water in the corners. The picture is that of the last size.
 """
 
 import argparse
@@ -71,6 +72,7 @@ def main() -> None:
     parser.add_argument("--sizes", default="1e3,1e4,1e5")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--results", default="all", choices=["all", "curve"])
+    parser.add_argument("--depth", type=float)
     parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
     heads = (
@@ -87,6 +89,7 @@ def main() -> None:
     print("| " + " | ".join(heads) + " |")
     print("|---" * len(heads) + "|")
     more = ["--threads", str(arguments.threads), "--results", arguments.results]
+    more += ["--depth", str(arguments.depth)] if arguments.depth else []
     for size in arguments.sizes.split(","):
         print(measure(arguments.program, round(float(size)), more, arguments.picture), flush=True)
 

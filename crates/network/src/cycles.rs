@@ -190,7 +190,7 @@ impl Cycles {
         for element in filled {
             self.record.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         }
-        self.update_films();
+        self.update_all_films();
         self.note_films();
         let first_saturation = [saturation, self.saturation()];
         // Openings have no entry pressure, so there is none to record.

@@ -37,11 +37,24 @@ impl Cycles {
         }
     }
 
-    /// Updates the films to the present elements of the non-wetting phase.
+    /// Updates the films to the present phases and connections.
     pub(super) fn update_films(&mut self) {
+        let changed = self.displacement.take_changed();
+        self.update_films_of(changed.into_iter());
+    }
+
+    /// The same at the beginning of a displacement.
+    pub(super) fn update_all_films(&mut self) {
+        if self.films.is_some() {
+            self.displacement.watch_changes();
+        }
+        self.update_films_of(0..self.displacement.elements().len());
+    }
+
+    fn update_films_of(&mut self, elements: impl Iterator<Item = usize>) {
         let invading = self.half_cycle().invading;
         let Some(films) = &mut self.films else { return };
-        films.update(&self.displacement, invading);
+        films.update(&self.displacement, invading, elements);
         let curvature = films.curvature;
         self.film_area = films.area();
         if curvature.is_finite() {
@@ -86,5 +99,47 @@ impl Cycles {
     /// Films for pictures and tables.
     pub(crate) fn observed_films(&self) -> Option<ObservedFilms> {
         self.films.as_ref().map(|films| films.observed(&self.displacement))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::setup::build_quasi_static;
+    use meniscus_case::{Model, load};
+    use meniscus_core::input::Overrides;
+
+    #[test]
+    fn films_of_what_an_event_changes_are_those_of_all_elements() {
+        let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/network/carbon-dioxide.toml");
+        let kinds = [
+            "network.films='rings'",
+            "network.films='joined'",
+            "network.trapping=false",
+            "network.wetting.hysteresis.advancing-angle-deg=30.0",
+        ];
+        for kind in kinds {
+            let set = Overrides::parse(&[kind, "network.cycles=2"]).unwrap();
+            let case = load(&case, &set).unwrap().case;
+            let Model::Network(wanted) = &case.model else { panic!("a network") };
+            let mut cycles = build_quasi_static(&case, wanted).unwrap().cycles().unwrap().clone();
+            let mut events = 0;
+            loop {
+                let films = cycles.films.as_ref().unwrap();
+                let mut all = films.clone();
+                all.log.clear();
+                all.update(&cycles.displacement, cycles.half_cycle().invading, 0..cycles.displacement.elements().len());
+                assert!(all.log.is_empty(), "{kind}, after {events} events: {:?}", all.log);
+                assert!(all.is_as(films), "{kind}, after {events} events");
+                let (found, each) = (films.area(), films.area_of_each(films.curvature));
+                assert!((found - each).abs() <= 1e-14 * each, "{kind}, after {events} events: {found} {each}");
+                if cycles.advance().is_none() {
+                    break;
+                }
+                events += 1;
+            }
+            assert!(events > 100, "{kind}");
+        }
     }
 }

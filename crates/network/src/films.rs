@@ -5,6 +5,7 @@
 //! are cut off, keep the pressure at which they were; all others follow the applied one.
 
 use super::displacement::{Beginning, Displacement, FilmPaths, Phase};
+use super::film_sums::FilmSums;
 use super::graph::{Network, Throat, WallPiece};
 use super::gravity::Gravity;
 use meniscus_case::FluidPhase;
@@ -97,6 +98,8 @@ struct ElementFilms {
     largest: f64,
     /// (p_n - p_w)/σ in its center less than the applied one, in 1/m.
     head: f64,
+    /// The number of its first part among those of all elements.
+    first: usize,
 }
 
 impl ElementFilms {
@@ -116,6 +119,7 @@ impl ElementFilms {
             parts,
             largest: terms.largest_radius(displacement.wall_pieces(element), area),
             head: terms.head(displacement.center(element)),
+            first: 0,
         }
     }
 
@@ -171,6 +175,8 @@ impl Film {
 pub(crate) struct Films {
     terms: FilmTerms,
     elements: Vec<ElementFilms>,
+    /// Their sums; `None` with gravity, with which films of one radius have different pressures.
+    sums: Option<FilmSums>,
     /// Fraction of each element that counts in saturations.
     shares: Vec<f64>,
     /// (p_n - p_w)/σ in 1/m.
@@ -184,7 +190,7 @@ impl Films {
     pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms, shares: Vec<f64>) -> Self {
         let curvature = if invading == FluidPhase::Wetting { f64::INFINITY } else { 0.0 };
         let elements = vec![ElementFilms::default(); displacement.elements().len()];
-        Self { elements, shares, curvature, terms, log: Vec::new() }.with_terms(displacement, None)
+        Self { elements, sums: None, shares, curvature, terms, log: Vec::new() }.with_terms(displacement, None)
     }
 
     /// The same at the initial pressure of a displacement that continues another one.
@@ -200,17 +206,41 @@ impl Films {
     /// The same with the other phase invading.
     pub(crate) fn with_terms(mut self, displacement: &Displacement, terms: Option<FilmTerms>) -> Self {
         self.terms = terms.unwrap_or(self.terms);
+        let mut largest = Vec::new();
         for (element, before) in self.elements.iter_mut().enumerate() {
             let mut films = ElementFilms::new(displacement, element, &self.terms);
             films.parts.iter_mut().for_each(|part| part.state = before.state(part.ring));
+            films.first = largest.len();
+            largest.extend(films.parts.iter().map(|_| films.largest));
             *before = films;
         }
+        self.sums = self.terms.gravity.is_none().then(|| FilmSums::of(&largest));
+        (0..self.elements.len()).for_each(|element| self.sum(element));
         self
     }
 
-    /// Updates the films to the present phases at the present curvature.
-    pub(crate) fn update(&mut self, displacement: &Displacement, invading: FluidPhase) {
-        for (element, films) in self.elements.iter_mut().enumerate() {
+    /// Takes the films of an element into the sums.
+    fn sum(&mut self, element: usize) {
+        let (films, share) = (&self.elements[element], self.shares[element]);
+        let Some(sums) = &mut self.sums else { return };
+        for (part, number) in films.parts.iter().zip(films.first..) {
+            match part.state {
+                Film::Absent => sums.set_free(number, 0.0),
+                Film::Free => sums.set_free(number, share * part.unit),
+                Film::Kept(curvature) => sums.set_kept(number, share * films.area(part, curvature)),
+            }
+        }
+    }
+
+    /// Updates the films of elements, in order, to the present phases at the present curvature.
+    pub(crate) fn update(
+        &mut self,
+        displacement: &Displacement,
+        invading: FluidPhase,
+        elements: impl Iterator<Item = usize>,
+    ) {
+        for element in elements {
+            let films = &mut self.elements[element];
             let is_wetting = (displacement.phase(element) == Phase::Invading) == (invading == FluidPhase::Wetting);
             let is_cut_off = displacement.is_cut_off(element);
             for (number, part) in films.parts.iter_mut().enumerate() {
@@ -225,6 +255,7 @@ impl Films {
                     self.log.push((element, number, part.state.kept().unwrap_or(f64::NAN)));
                 }
             }
+            self.sum(element);
         }
     }
 
@@ -235,7 +266,18 @@ impl Films {
 
     /// Volume over the depth in m² of all films that count if (p_n - p_w)/σ were `curvature` in 1/m.
     pub(crate) fn area_at(&self, curvature: f64) -> f64 {
+        self.sums.as_ref().map_or_else(|| self.area_of_each(curvature), |sums| sums.at(curvature))
+    }
+
+    /// The same, from each film.
+    pub(super) fn area_of_each(&self, curvature: f64) -> f64 {
         (0..self.elements.len()).map(|element| self.shares[element] * self.area_of(element, curvature)).sum()
+    }
+
+    /// Whether others have the same states.
+    #[cfg(test)]
+    pub(super) fn is_as(&self, other: &Self) -> bool {
+        self.elements == other.elements
     }
 
     fn area_of(&self, element: usize, curvature: f64) -> f64 {

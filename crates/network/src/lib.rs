@@ -19,6 +19,7 @@ pub mod solver;
 
 mod film_curve;
 mod film_flow;
+mod film_sums;
 mod films;
 mod flow;
 mod half_cycle;

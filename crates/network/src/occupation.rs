@@ -52,6 +52,11 @@ impl Occupation<'_> {
 impl Cycles {
     /// The present state.
     pub(crate) fn occupation(&self) -> Occupation<'_> {
+        Occupation { films: self.observed_films(), ..self.occupation_without_films() }
+    }
+
+    /// The same, but for the lines of films in pictures.
+    pub(crate) fn occupation_without_films(&self) -> Occupation<'_> {
         let displacement = &self.displacement;
         let elements = displacement.elements();
         let present = self.history().iter().filter(|entry| entry.half_cycle == self.half_cycle_index());
@@ -64,7 +69,7 @@ impl Cycles {
             passed: present.map(|entry| entry.throat).collect(),
             open: self.half_cycle().open_sides(),
             half_cycle: self.half_cycle_index(),
-            films: self.observed_films(),
+            films: None,
         }
     }
 

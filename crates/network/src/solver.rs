@@ -116,7 +116,7 @@ impl Solver for NetworkSolver {
         ];
         if let Some(cycles) = &self.model.cycles {
             let pressure = |applied| self.model.config.pressure(cycles.half_cycle().invading, applied);
-            let invaded = summary::invaded_pores(&self.model.config, &cycles.occupation());
+            let invaded = summary::invaded_pores(&self.model.config, &cycles.occupation_without_films());
             row.extend([
                 // With a displacement, as all that follow: number of the half cycle, from 1
                 sample("half_cycle", (cycles.half_cycle_index() + 1) as f64),

@@ -169,6 +169,7 @@ impl Displacement {
             self.bridge_beside(mesh, element);
         }
         self.filled.extend_from_slice(elements);
+        self.connection.note(elements);
     }
 
     /// Consequences of all events of one curvature: trapping and new menisci.

@@ -56,6 +56,26 @@ impl Displacement {
         mesh.loops.iter().enumerate().flat_map(of_loop).collect()
     }
 
+    /// From now on [`Self::take_changed`] tells what changes.
+    pub(crate) fn watch_changes(&mut self) {
+        self.connection.changed = Some(Vec::new());
+    }
+
+    /// The elements whose phase, connection or rings have changed since the last call, in order.
+    pub(crate) fn take_changed(&mut self) -> Vec<usize> {
+        let nodes = self.connection.changed.as_mut().map(std::mem::take).unwrap_or_default();
+        let count = self.mesh.elements.len();
+        let at_ring = |ring: usize| self.rings.iter().flat_map(move |rings| rings.elements[ring].iter().copied());
+        let elements = nodes.into_iter().flat_map(|node| {
+            let (element, ring) = (Some(node).filter(|_| node < count), node.checked_sub(count));
+            element.into_iter().chain(ring.into_iter().flat_map(at_ring))
+        });
+        let mut loops: Vec<usize> = elements.flat_map(|it| self.mesh.elements[it].loops.iter().copied()).collect();
+        loops.sort_unstable();
+        loops.dedup();
+        loops
+    }
+
     /// The elements trapped since the last call.
     pub(crate) fn take_lost(&mut self) -> Vec<usize> {
         let lost = std::mem::take(&mut self.lost);

@@ -18,6 +18,8 @@ pub(super) struct Connection {
     drains: bool,
     /// Rings that were connected to the inlet since this was last emptied.
     pub(super) newly_fed: Vec<usize>,
+    /// Elements and rings of another phase or connection since this was last emptied, if somebody asks for them.
+    pub(super) changed: Option<Vec<usize>>,
 }
 
 impl Connection {
@@ -44,7 +46,7 @@ impl Connection {
         };
         let is_cut_off = |e: usize| !invaded[e] && reachable.as_ref().is_some_and(|it| !it.is_open(e));
         let trapped = (0..count).map(is_cut_off).collect();
-        let mut begun = Self { joined: Vec::new(), trapped, reachable, drains, newly_fed: Vec::new() };
+        let mut begun = Self { joined: Vec::new(), trapped, reachable, drains, newly_fed: Vec::new(), changed: None };
         if is_free || (joined_films && !drains) {
             let all = (0..count).filter(|&element| invaded[element]).collect();
             begun.joined = invaded.to_vec();
@@ -65,6 +67,7 @@ impl Connection {
         let (graph, elements) = (held.graph(!self.drains), held.invaded.len());
         while let Some(node) = open.pop() {
             if !std::mem::replace(&mut self.joined[node], true) {
+                self.note(&[node]);
                 let is_reached =
                     |&other: &usize| held.invaded.get(other).is_none_or(|invaded| *invaded) && !self.joined[other];
                 open.extend(graph.neighbors(node).filter(is_reached));
@@ -76,6 +79,11 @@ impl Connection {
             }
         }
         found
+    }
+
+    /// Notes elements and rings of another phase or connection.
+    pub(super) fn note(&mut self, nodes: &[usize]) {
+        self.changed.iter_mut().for_each(|changed| changed.extend(nodes));
     }
 
     /// Whether an invading element is connected to the inlet.
@@ -96,6 +104,7 @@ impl Connection {
     pub(super) fn remove(&mut self, held: Held, elements: &[usize], closed: &[[usize; 2]]) -> Vec<usize> {
         let graph = held.graph(self.drains);
         let mut lost = self.reachable.as_mut().map_or_else(Vec::new, |it| it.cut(graph, elements, closed));
+        self.note(&lost);
         lost.retain(|&lost| held.invaded.get(lost).is_some_and(|invaded| !invaded));
         lost.iter().for_each(|&lost| self.trapped[lost] = true);
         lost
