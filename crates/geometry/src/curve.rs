@@ -293,7 +293,7 @@ mod tests {
         let circle = |start, sweep| Curve::Arc { center: Vec2::new(1.0, -2.0), radius: 0.7, start, sweep };
         let arcs = (0..24).map(|k| circle(f64::from(k) * 0.3, f64::from(k - 12) * 0.5));
         for curve in arcs.chain([Curve::Segment { a: Vec2::new(2.0, 1.0), b: Vec2::new(-1.0, 3.0) }]) {
-            let whole = curve.enclosing_box().grown(1e-15);
+            let whole = curve.enclosing_box().grown(5e-16);
             assert_eq!(whole.united(&curve.bounds()), whole, "{curve:?}");
         }
     }

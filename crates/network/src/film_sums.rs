@@ -111,7 +111,7 @@ mod tests {
                     };
                     let each = films.iter().enumerate().map(|(film, (unit, kept))| unit * radius(film).powi(2) + kept);
                     let (expected, found): (f64, f64) = (each.sum(), sums.at(curvature));
-                    assert!((found - expected).abs() <= 1e-13 * expected, "{count} {curvature}: {found} {expected}");
+                    assert!((found - expected).abs() <= 1.5e-15 * expected, "{count} {curvature}: {found} {expected}");
                 }
             }
         }

@@ -18,7 +18,7 @@ pub(super) struct Connection {
     drains: bool,
     /// Rings that were connected to the inlet since this was last emptied.
     pub(super) newly_fed: Vec<usize>,
-    /// Elements and rings of another phase or connection since this was last emptied, if somebody asks for them.
+    /// Elements and rings of another phase or connection since this was last emptied; `None` until changes are watched.
     pub(super) changed: Option<Vec<usize>>,
 }
 
